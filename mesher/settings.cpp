@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/number_rule.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "mesher/size_entries.hpp"
 
@@ -46,20 +47,14 @@ Error refused(const Setting& setting, const std::string& rule) {
   return usage_error(std::string(setting.name), fmt::format("`{}` {}", setting.name, rule));
 }
 
-/// "a positive number", "a whole number of at least 0 and at most 4096".
-std::string rule_of(const Setting& setting) {
-  const std::string what = setting.kind() == "count" ? "a whole number" : "a number";
-  if (setting.low == 0 && setting.above_low && setting.high == infinity) return "a positive number";
-  if (setting.high == infinity) return fmt::format("{} of at least {:g}", what, setting.low);
-  return fmt::format("{} {} {:g} and at most {:g}", what, setting.above_low ? "above" : "of at least",
-                     setting.low, setting.high);
+NumberRule rule_of(const Setting& setting) {
+  return {setting.low, setting.high, setting.above_low, setting.kind() == "count"};
 }
 
 double checked(const Setting& setting, double value) {
-  const bool in_limits =
-      (setting.above_low ? value > setting.low : value >= setting.low) && value <= setting.high;
-  if (!in_limits || !std::isfinite(value) || (setting.kind() == "count" && value != std::floor(value)))
-    throw refused(setting, fmt::format("must be {}, not {:g}", rule_of(setting), value));
+  const NumberRule rule = rule_of(setting);
+  if (!rule.allows(value))
+    throw refused(setting, fmt::format("must be {}, not {:g}", rule.sentence(), value));
   return value;
 }
 
@@ -125,7 +120,7 @@ std::vector<int> face_numbers(const Setting& setting, const SettingValue& value)
 
 void set_sizes(const Setting& setting, const SettingValue& value, SizingOptions& sizing) {
   for (const auto& [name, size] : as<Sizes>(setting, value)) {
-    if (!(size > 0) || !std::isfinite(size))
+    if (!positive.allows(size))
       throw refused(setting, fmt::format("takes positive sizes, not {:g} on {}", size, name));
     if (const int face = number_of(name, "Face"))
       sizing.face_sizes[face] = size;
@@ -160,7 +155,7 @@ double parse_number(const Setting& setting, std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) return value;
-  throw refused(setting, fmt::format("must be {}, not '{}'", rule_of(setting), text));
+  throw refused(setting, fmt::format("must be {}, not '{}'", rule_of(setting).sentence(), text));
 }
 
 Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts) {

@@ -520,9 +520,10 @@ TEST(CadModel, SaysWhatIsWrongWithAFile) {
   using Refusal = std::pair<std::string, std::string>;
   const std::string readme = std::string(QUADRILLE_SOURCE_DIR) + "/README.md";
   EXPECT_EQ(refusal_of([] { CadModel::read("/nowhere/part.step"); }),
-            Refusal("/nowhere/part.step does not exist", "/nowhere/part.step"));
+            Refusal("/nowhere/part.step: cannot be read: No such file or directory", "/nowhere/part.step"));
   EXPECT_EQ(refusal_of([] { CadModel::read(QUADRILLE_SOURCE_DIR); }),
-            Refusal(std::string(QUADRILLE_SOURCE_DIR) + " is a folder", QUADRILLE_SOURCE_DIR));
+            Refusal(std::string(QUADRILLE_SOURCE_DIR) + ": cannot be read: it is a folder, not a file",
+                    QUADRILLE_SOURCE_DIR));
   EXPECT_EQ(
       refusal_of([&] { CadModel::read(readme); }),
       Refusal(readme + " has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP (.brep, "

@@ -79,8 +79,10 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), f
       return descriptor_ >= 0;
     });
   }
-  // An overwritten file keeps its permissions. Where that is refused, it gets the default ones.
-  if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) errno = 0;
+  // An overwritten file keeps its permissions. Where that is refused, it gets the default ones. The right to
+  // act as the file's owner was given to other contents.
+  constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
+  if (exists && ::fchmod(descriptor_, status.st_mode & permissions) != 0) errno = 0;
 }
 
 AtomicFile::~AtomicFile() {

@@ -1,6 +1,7 @@
 #pragma once
 /// The one exception type of the library.
 
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -30,6 +31,14 @@ class QUADRILLE_API Error : public std::runtime_error {
   Kind kind_;
   std::string subject_;
 };
+
+/// What an exception says, in words for users where the standard library has only the name of a function.
+inline std::string sentence_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr ||
+      dynamic_cast<const std::length_error*>(&error) != nullptr)
+    return "there is not enough memory for it (a damaged file may promise more than it holds)";
+  return error.what();
+}
 
 /// An Error of kind `usage`.
 inline Error usage_error(std::string subject, const std::string& sentence) {

@@ -6,7 +6,11 @@
 
 namespace quadrille {
 
-/// The system's message why the path cannot be read; empty if it can be. Opens nothing: safe for pipes.
+/// Throws Error (failure) unless the path can be read: not folders, devices, or files larger than memory has
+/// room for. Opens nothing: safe for pipes.
+void require_readable(const std::filesystem::path& path);
+
+/// The system's message why the path cannot be read; empty if it can be. Opens nothing.
 std::string why_unreadable(const std::filesystem::path& path);
 
 /// The system's message why no file can be created in the folder; empty if one can be.

@@ -2,7 +2,6 @@
 
 #include "geometry/base/isolated_answer.hpp"
 
-#include <new>
 #include <sstream>
 #include <string_view>
 
@@ -23,10 +22,8 @@ Answer answer(const std::string& subject, const std::function<void(std::ostream&
   } catch (const Error& error) {
     out << error.what();
     return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
-  } catch (const std::bad_alloc&) {
-    out << subject << ": is too large for the memory of this machine";
   } catch (const std::exception& problem) {
-    out << subject << ": " << problem.what();
+    out << subject << ": " << sentence_of(problem);
   }
   return failure_sentence;
 }

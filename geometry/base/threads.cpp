@@ -3,6 +3,7 @@
 #include "geometry/base/threads.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <new>
 #include <system_error>
@@ -10,6 +11,20 @@
 #include <vector>
 
 namespace quadrille {
+
+namespace {
+
+std::atomic<void (*)()> preparation_of_threads{nullptr};
+
+}  // namespace
+
+void prepare_threads(void (*prepare)()) {
+  preparation_of_threads.store(prepare);
+}
+
+void ThreadPreparation::on_scheduler_entry(bool) {
+  if (const auto prepare = preparation_of_threads.load()) prepare();
+}
 
 // oneTBB ends the program when it cannot create a thread, so creating them is tried here first.
 int makeable_threads(int wanted) {

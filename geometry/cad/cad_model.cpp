@@ -21,6 +21,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
@@ -150,10 +151,7 @@ void keep_pieces(CadShape& shape, std::vector<std::vector<int>> pieces) {
 
 CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& options) {
   const std::string name = path.string();
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) throw failure(name, fmt::format("{} does not exist", name));
-  if (std::filesystem::is_directory(path, code)) throw failure(name, fmt::format("{} is a folder", name));
-  if (!std::ifstream(path)) throw failure(name, fmt::format("{} cannot be opened for reading", name));
+  require_readable(path);
   const std::string extension = lower_ending(path);
   const IsolatedTask task{"cad", {std::filesystem::absolute(path).string()}};
   if (extension == ".step" || extension == ".stp")

@@ -108,6 +108,7 @@ void FaceGaps::find_between(const Piece& piece, std::vector<FaceGap>& gaps, Spar
   const double width = std::max((gap ? gap->width() : widest_) - 0.5 * length, narrowest_);
   if (length <= 0.5 * width) return;
   const Vector3 middle = 0.5 * (piece.a + piece.b);
+  if (middle == piece.a || middle == piece.b) return;  // no numbers lie between the ends
   find_between({piece.a, middle, piece.inward}, gaps, check);
   find_between({middle, piece.b, piece.inward}, gaps, check);
 }

@@ -4,6 +4,7 @@
 
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
+#include <Precision.hxx>
 
 #include <algorithm>
 #include <atomic>
@@ -318,7 +319,15 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
   const double least = options.size_min > 0 ? std::min(options.size_min, size) : size / 8;
   // A number of elements across gaps is requested by name; the default lower limit must not undercut it.
   const double at_gaps = options.proximity > 0 && options.size_min <= 0 ? size / 32 : least;
-  return {size, std::min({least, at_gaps, smallest(model, options, size)}), least};
+  // Points closer than this are one point to OpenCASCADE.
+  const double resolution = Precision::Confusion();
+  const double requested = std::min(size, smallest(model, options, size));
+  if (requested < resolution)
+    throw usage_error("size", fmt::format("a size of {:.3g} mm is requested, below the {:g} mm within which "
+                                          "points of a CAD model coincide: use a larger size",
+                                          requested, resolution));
+  const double lower_limit = std::max(least, resolution);
+  return {size, std::min({lower_limit, at_gaps, requested}), lower_limit};
 }
 
 EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options,

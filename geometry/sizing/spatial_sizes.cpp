@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/base/place_text.hpp"
@@ -91,11 +92,11 @@ double SizeRegion::distance(const Vector3& point) const {
 }
 
 std::vector<SizePoint> read_size_points(const std::filesystem::path& path) {
+  require_readable(path);
   std::ifstream file(path);
   const auto refused = [&](std::size_t line, const std::string& what) {
     return failure(path.string(), fmt::format("{}: line {} {}", path.string(), line, what));
   };
-  if (!file) throw failure(path.string(), fmt::format("{} cannot be read", path.string()));
   std::vector<SizePoint> points;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {

@@ -26,16 +26,16 @@ namespace {
 void check(const ShellMesh& mesh, const AdaptOptions& options) {
   if (!mesh.triangles.empty() || mesh.quads.empty())
     throw failure("", "the mesh has to consist of quads to be adapted");
-  if (options.count == 0 && !(options.error > 0 && options.error < 1))
-    throw usage_error("error",
-                      fmt::format("the target error must be between 0 and 1, not {:g}", options.error));
-  if (options.count < 0 || !std::isfinite(options.count))
-    throw usage_error("count",
-                      fmt::format("the number of elements must be positive, not {:g}", options.count));
-  if (!(options.poisson >= 0 && options.poisson < 0.5))
-    throw usage_error("poisson", fmt::format("Poisson's ratio must be at least 0 and below 0.5, not {:g}",
-                                             options.poisson));
-  if (!(options.growth > 0)) throw usage_error("growth", "the growth must be a positive number");
+  const auto hold = [](const char* name, const NumberRule& rule, double value) {
+    if (!rule.allows(value))
+      throw usage_error(name, fmt::format("{} must be {}, not {:g}", name, rule.sentence(), value));
+  };
+  if (options.count == 0) hold("error", AdaptOptions::error_rule, options.error);
+  hold("count", {}, options.count);
+  hold("poisson", AdaptOptions::poisson_rule, options.poisson);
+  hold("growth", positive, options.growth);
+  hold("size_min", {}, options.size_min);
+  hold("size_max", {}, options.size_max);
   if (options.size_max > 0 && options.size_min > options.size_max)
     throw usage_error("size_min", "the least size must be at most the largest");
 }

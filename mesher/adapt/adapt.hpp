@@ -6,12 +6,17 @@
 
 #include "geometry/base/api.hpp"
 #include "geometry/base/execution_context.hpp"
+#include "geometry/base/number_rule.hpp"
 #include "mesher/adapt/peak_stress.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 
 struct AdaptOptions {
+  /// What `error` and `poisson` may be.
+  static constexpr NumberRule error_rule{.high = 1, .above_low = true, .below_high = true};
+  static constexpr NumberRule poisson_rule{.high = 0.5, .below_high = true};
+
   double error = 0.05;   ///< wanted relative error in the energy norm of the whole mesh; unused if count > 0
   double count = 0;      ///< wanted number of elements; 0 = as many as the error needs
   double poisson = 0.3;  ///< Poisson's ratio

@@ -10,6 +10,7 @@
 #include "geometry/base/atomic_file.hpp"
 #include "mesher/adapt/adapt.hpp"
 #include "mesher/command/command.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -77,7 +78,7 @@ nlohmann::ordered_json report_on(const AdaptResult& result) {
 }
 
 void tell(const AdaptResult& result, const AdaptArguments& arguments) {
-  for (const std::string& warning : warnings_on(result)) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings_on(result)) say("warning: {}", warning);
   print(fmt::format("error        {:.3g} % of the energy norm, with {} quads\n", 100 * result.error,
                     result.quads));
   if (result.is_met)
@@ -91,15 +92,8 @@ void tell(const AdaptResult& result, const AdaptArguments& arguments) {
 }
 
 void run(const AdaptArguments& arguments) {
-  require_readable(arguments.mesh);
-  require_readable(arguments.result);
-  if (!arguments.before.empty()) require_readable(arguments.before);
-  require_ending(arguments.output, ".vdb", "-o");
-  if (!arguments.report.empty()) require_writable(arguments.report);
-  require_different_files({{"MESH", arguments.mesh},
-                           {"RESULT", arguments.result},
-                           {"-o", arguments.output},
-                           {"--report", arguments.report}});
+  require_usable({{{"MESH", arguments.mesh}, {"RESULT", arguments.result}, {"--before", arguments.before}},
+                  {{"-o", arguments.output, ".vdb"}, {"--report", arguments.report}}});
   report_crashes(arguments.mesh, "reading");
   ExecutionContext context;
   const CancelOnSignal cancel(context);
@@ -126,14 +120,19 @@ void add_adapt_command(CLI::App& app) {
   command->add_option("-o,--output", arguments->output, "sizes as OpenVDB grids (.vdb), for --size-field")
       ->required();
   CLI::Option* error =
-      command->add_option("--error", options.error,
-                          "target error of the stresses, relative to their energy norm (default 0.05: 5 %)");
+      command
+          ->add_option("--error", options.error,
+                       "target error of the stresses, relative to their energy norm (default 0.05: 5 %)")
+          ->check(number(AdaptOptions::error_rule));
   command->add_option("--count", options.count, "target number of elements, instead of a target error")
-      ->excludes(error);
-  command->add_option("--size-min", options.size_min, "no size below this, in mm");
-  command->add_option("--size-max", options.size_max, "no size above this, in mm");
-  command->add_option("--growth", options.growth, "how fast the size may change (default 0.3)");
-  command->add_option("--poisson", options.poisson, "Poisson's ratio (default 0.3)");
+      ->excludes(error)
+      ->check(number(positive));
+  command->add_option("--size-min", options.size_min, "no size below this, in mm")->check(number(positive));
+  command->add_option("--size-max", options.size_max, "no size above this, in mm")->check(number(positive));
+  command->add_option("--growth", options.growth, "how fast the size may change (default 0.3)")
+      ->check(number(positive));
+  command->add_option("--poisson", options.poisson, "Poisson's ratio (default 0.3)")
+      ->check(number(AdaptOptions::poisson_rule));
   command->add_option("--report", arguments->report, "write error, counts, sizes and stress peaks as JSON");
   command->add_option("--before", arguments->before,
                       "report on the previous mesh: warn of stress peaks that have changed since");

@@ -45,8 +45,7 @@ CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, boo
 
 void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
   if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
-  set_alarm_line("quadrille: " + with_options(reading_too_long(printable(file.string(), ' '), seconds)) +
-                 "\n");
+  set_alarm_line("quadrille: " + with_options(reading_too_long(printable(file.string()), seconds)) + "\n");
   ring_after(seconds);
 }
 
@@ -58,7 +57,7 @@ void CancelOnSignal::reading_is_done() {
 }
 
 void CancelOnSignal::wrote(const std::filesystem::path& file) {
-  whole_files.push_back(printable(file.string(), ' '));
+  whole_files.push_back(printable(file.string()));
   prepare_time_line(time_limit_);
 }
 

@@ -13,40 +13,11 @@
 #include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
+#include "geometry/base/printable.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
-
-void require_readable(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw failure(name, fmt::format("{}: is a folder, not a file", name));
-  if (const std::string why = why_unreadable(path); !why.empty())
-    throw failure(name, fmt::format("{}: cannot be read: {}", name, why));
-}
-
-void require_writable(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-    throw usage_error(name, fmt::format("{}: is a folder, not a file", name));
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) return;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder, ignored))
-    throw usage_error(name, fmt::format("{}: the folder {} does not exist", name, folder.string()));
-  if (const std::string why = why_unwritable(folder); !why.empty())
-    throw usage_error(name, fmt::format("{}: the folder {} is not writable: {}", name, folder.string(), why));
-}
-
-void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option) {
-  if (lower_ending(path) != ending)
-    throw usage_error(std::string(option),
-                      fmt::format("{}: the file name must end in {}, not {}", option, ending, path.string()));
-  require_module(ending);
-  require_writable(path);
-}
 
 void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
                 const std::function<void()>& draw) {
@@ -70,7 +41,37 @@ void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
   run_isolated(options, work, [](std::istream&) {});
 }
 
+void print(std::string_view text) {
+  write_to_stdout(printable(text, {}, '\n'));
+}
+
+void say_line(std::string_view line) {
+  fmt::print(stderr, "{}\n", printable(line));
+}
+
 namespace {
+
+void require_writable(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw usage_error(name, fmt::format("{}: is a folder, not a file", name));
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) return;
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw usage_error(name, fmt::format("{}: the folder {} does not exist", name, folder.string()));
+  if (const std::string why = why_unwritable(folder); !why.empty())
+    throw usage_error(name, fmt::format("{}: the folder {} is not writable: {}", name, folder.string(), why));
+}
+
+/// Throws Error (usage) unless the output can be made and has its ending.
+void require_possible(const NamedFile& output) {
+  if (!output.ending.empty() && lower_ending(output.path) != output.ending)
+    throw usage_error(output.argument, fmt::format("{}: the file name must end in {}, not {}",
+                                                   output.argument, output.ending, output.path.string()));
+  if (!output.ending.empty()) require_module(output.ending);
+  require_writable(output.path);
+}
 
 bool is_regular(const std::filesystem::path& path) {
   std::error_code none;
@@ -88,35 +89,33 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
   return is_regular(a) && is_regular(b) && place(a) == place(b);
 }
 
-}  // namespace
-
-void require_different_files(const std::vector<NamedFile>& files) {
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const auto& [before, first] = files[k];
-      const auto& [argument, second] = files[i];
-      if (first.empty() || second.empty() || !is_same_file(first, second)) continue;
-      throw usage_error(argument, fmt::format("{} {} is the same file as {} {}: give each a file of its own",
-                                              argument, second.string(), before, first.string()));
-    }
-  }
+void require_different(const NamedFile& first, const NamedFile& second) {
+  if (first.path.empty() || second.path.empty() || !is_same_file(first.path, second.path)) return;
+  throw usage_error(second.argument,
+                    fmt::format("{} {} is the same file as {} {}: give each a file of its own",
+                                second.argument, second.path.string(), first.argument, first.path.string()));
 }
 
-void require_usable(const ModelFiles& files) {
-  for (const std::filesystem::path& output : files.outputs) require_writable(output);
-  if (!files.report.empty()) require_writable(files.report);
-  if (!files.picture.empty()) require_ending(files.picture, ".png", "--picture");
-  if (!files.write_size_field.empty()) require_ending(files.write_size_field, ".vdb", "--write-size-field");
-  std::vector<NamedFile> named{{"IN", files.input},
-                               {"--size-field", files.sizing.size_field},
-                               {"--size-points", files.sizing.size_points}};
-  for (const auto& [argument, path] : named)
-    if (!path.empty() || argument == "IN") require_readable(path);
-  for (const std::filesystem::path& output : files.outputs) named.push_back({"-o", output});
-  named.insert(named.end(), {{"--report", files.report},
-                             {"--picture", files.picture},
-                             {"--write-size-field", files.write_size_field}});
-  require_different_files(named);
+}  // namespace
+
+std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const SizingOptions& sizing) {
+  return {{"IN", input}, {"--size-field", sizing.size_field}, {"--size-points", sizing.size_points}};
+}
+
+void add(std::vector<NamedFile>& files, const std::string& argument,
+         const std::vector<std::filesystem::path>& paths) {
+  for (const std::filesystem::path& path : paths) files.push_back({argument, path});
+}
+
+void require_usable(const CommandFiles& files) {
+  for (const NamedFile& output : files.outputs)
+    if (!output.path.empty()) require_possible(output);
+  for (std::size_t i = 0; i < files.inputs.size(); ++i)
+    if (i == 0 || !files.inputs[i].path.empty()) require_readable(files.inputs[i].path);
+  std::vector<NamedFile> all = files.inputs;
+  all.insert(all.end(), files.outputs.begin(), files.outputs.end());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) require_different(all[k], all[i]);
 }
 
 ProgressDisplay::ProgressDisplay(bool quiet)

@@ -2,14 +2,18 @@
 /// What the subcommands of `quadrille` share. Each subcommand is a function that adds itself to the parser.
 /// Its callback does the work and throws Error, which run() turns into one line on stderr and the exit code.
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/settings.hpp"
 
@@ -29,43 +33,49 @@ void add_remesh_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_settings_command(CLI::App& app);
 
-/// Writes to stdout at once. Throws Error (failure) if stdout is closed or full.
+/// Writes to stdout at once, with what a terminal would obey shown escaped. Throws Error (failure) if stdout
+/// is closed or full.
 void print(std::string_view text);
+
+/// The same without escapes, for print() alone.
+void write_to_stdout(std::string_view text);
+
+/// Writes a line to stderr, with what a terminal would obey, line breaks too, shown escaped.
+void say_line(std::string_view line);
+
+/// The same with a format of fmt.
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  say_line(fmt::format(format, std::forward<Values>(values)...));
+}
 
 /// Whether stderr is a terminal.
 bool stderr_is_terminal();
 
-/// Throws Error (failure) unless the path is a file that can be read.
-void require_readable(const std::filesystem::path& path);
-
-/// Throws Error (usage) unless a file can be made at the path: the folder exists and is writable, and the
-/// path is not itself a folder.
-void require_writable(const std::filesystem::path& path);
-
-/// Throws Error (usage) unless the path has the ending (".png") and require_writable() holds.
-void require_ending(const std::filesystem::path& path, std::string_view ending, std::string_view option);
-
-/// A file named on the command line, and the argument that names it: "-o", "--report", "IN".
+/// A file named on the command line, and the argument that names it: "-o", "--report", "IN". Optional files
+/// that are not given have no path.
 struct NamedFile {
   std::string argument;
   std::filesystem::path path;
+  std::string_view ending = {};  ///< that an output must have (".png"); empty = checked by the command
 };
 
-/// Throws Error (usage) unless all files with a name are different; links are followed. An output may replace
-/// neither an input nor another output. Devices and pipes may be named twice.
-void require_different_files(const std::vector<NamedFile>& files);
-
-/// The input and output files of a run on a model. An empty path means no such file.
-struct ModelFiles {
-  const std::filesystem::path& input;
-  const std::vector<std::filesystem::path>& outputs;
-  const SizingOptions& sizing;  ///< its files are inputs
-  const std::filesystem::path &report, &picture, &write_size_field;
+/// All files that a command reads, the one that it cannot do without first, and all that it writes.
+struct CommandFiles {
+  std::vector<NamedFile> inputs, outputs;
 };
 
-/// Throws Error: failure unless the inputs can be read, usage unless the outputs can be written, have the
-/// right endings, and all files are different. Each command checks the endings of `outputs` itself.
-void require_usable(const ModelFiles& files);
+/// The CAD file and the files that the sizes come from.
+std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const SizingOptions& sizing);
+
+/// Adds files of one option that may be given more than once.
+void add(std::vector<NamedFile>& files, const std::string& argument,
+         const std::vector<std::filesystem::path>& paths);
+
+/// Throws Error: failure unless the inputs can be read, usage unless the outputs can be made (the folder
+/// exists and is writable), have the right endings, and all files are different: no output replaces an input
+/// or another output. Links are followed. Devices and pipes may be named twice.
+void require_usable(const CommandFiles& files);
 
 /// Draws a picture in a child process, since the renderer ends its process if memory or threads run out.
 /// Throws Error (failure) that names the file.

@@ -20,8 +20,11 @@ void LimitsOption::add_to(CLI::App& command) {
 
 CriteriaLimits LimitsOption::limits(const ShellMesh& mesh) const {
   if (file_.empty()) return limits_of(mesh);
-  require_readable(file_);
-  return read_limits(file_);
+  if (!read_) {  // once: the file may be a pipe
+    require_readable(file_);
+    read_ = read_limits(file_);
+  }
+  return *read_;
 }
 
 void LimitsOption::hold(const std::filesystem::path& file, const ShellMesh& mesh) const {

@@ -2,6 +2,7 @@
 /// The option --limits [FILE], shared by the commands that have it.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +18,9 @@ class LimitsOption {
 
   bool given() const { return option_->count() > 0; }
 
+  /// The file of limits; empty = none.
+  std::filesystem::path file() const { return file_; }
+
   /// Throws Error (failure) if the file of limits cannot be read or makes no sense.
   void check() const { limits({}); }
 
@@ -29,6 +33,7 @@ class LimitsOption {
  private:
   std::string file_;
   const CLI::Option* option_ = nullptr;
+  mutable std::optional<CriteriaLimits> read_;  // from the file
 };
 
 }  // namespace quadrille::command

@@ -39,8 +39,13 @@ struct MeshArguments : GivenSettings {
 
 void check_files(const MeshArguments& arguments) {
   check_formats(arguments, arguments.outputs);
-  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing, arguments.report,
-                  arguments.picture, arguments.write_size_field});
+  CommandFiles files{model_inputs(arguments.input, arguments.settings.mesh.sizing), {}};
+  files.inputs.push_back({"--limits", arguments.limits.file()});
+  add(files.outputs, "-o", arguments.outputs);
+  files.outputs.insert(files.outputs.end(), {{"--report", arguments.report},
+                                             {"--picture", arguments.picture, ".png"},
+                                             {"--write-size-field", arguments.write_size_field, ".vdb"}});
+  require_usable(files);
 }
 
 CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
@@ -90,12 +95,10 @@ std::optional<MidSurface> middle_of(const CadModel& model, const MeshArguments& 
 /// Prints one line for each face, and each node of --node, that --partial leaves out.
 void list_left_out(const ShellMesh& mesh) {
   for (const ShellMesh::Face& face : mesh.faces) {
-    if (face.status == FaceStatus::failed)
-      fmt::print(stderr, "quadrille: left out: Face{}: {}\n", face.face, face.note);
+    if (face.status == FaceStatus::failed) say("quadrille: left out: Face{}: {}", face.face, face.note);
   }
   for (const ShellMesh::PlacedNode& node : mesh.placed_nodes) {
-    if (node.vertex == 0)
-      fmt::print(stderr, "quadrille: left out: {}: the mesh has no node there\n", node.name);
+    if (node.vertex == 0) say("quadrille: left out: {}: the mesh has no node there", node.name);
   }
 }
 
@@ -192,10 +195,8 @@ void tell_poor_quads(const ShellMesh& mesh) {
   int quads = 0;
   for (const auto& found : mesh.poor_quads) quads += found.quads;
   const auto& most = mesh.poor_quads.front();
-  fmt::print(
-      stderr,
-      "note: {} quads are outside the usual limits, most of them at {}{} ({}): {}; --report lists all\n",
-      quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+  say("note: {} quads are outside the usual limits, most of them at {}{} ({}): {}; --report lists all", quads,
+      most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
 }
 
 /// Writes the report, the warnings to stderr and the tables to stdout, if requested.
@@ -224,18 +225,17 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     write_report(report, arguments.report);
   }
   if (arguments.quiet) return;
-  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : warnings) say("warning: {}", warning);
   if (!result.crossed_edges.empty()) {
     const int edge = result.crossed_edges.front().edge;
-    fmt::print(stderr,
-               "note: quads cross smooth edges ({}, Edge{} first), which get no groups of their own: --keep "
-               "Edge{} keeps "
-               "it, --keep-features all\n",
-               result.crossed_edges.size(), edge, edge);
+    say("note: quads cross smooth edges ({}, Edge{} first), which get no groups of their own: --keep "
+        "Edge{} keeps "
+        "it, --keep-features all",
+        result.crossed_edges.size(), edge, edge);
   }
   if (!result.filled_holes.empty())
-    fmt::print(stderr, "note: {} holes, pockets and bosses are left out; the report (--report) lists them\n",
-               result.filled_holes.size());
+    say("note: {} holes, pockets and bosses are left out; the report (--report) lists them",
+        result.filled_holes.size());
   tell_poor_quads(result);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));
@@ -243,7 +243,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 
 void run(const MeshArguments& arguments) {
   check_files(arguments);
-  arguments.limits.check();
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
@@ -256,6 +255,7 @@ void run(const MeshArguments& arguments) {
   report_crashes(arguments.input, "reading");
   CancelOnSignal cancel(context, settings.time_limit, settings.mesh.partial);
   if (arguments.end_with_input) end_with_input();
+  arguments.limits.check();  // may wait, if the file is a pipe
   cancel.reading(arguments.input, settings.read_time_limit);
   const CadModel source = read_model(arguments, context);
   cancel.reading_is_done();

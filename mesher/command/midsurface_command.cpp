@@ -19,16 +19,14 @@ struct Arguments : GivenSettings {
 };
 
 void run(const Arguments& arguments) {
-  require_readable(arguments.input);
   for (const std::filesystem::path& output : arguments.outputs) {
     if (!is_midsurface_format(output))
       throw usage_error(
           "-o", fmt::format("{}: a middle surface is written as .brep, .step or .json", output.string()));
-    require_writable(output);
   }
-  std::vector<NamedFile> files{{"IN", arguments.input}};
-  for (const std::filesystem::path& output : arguments.outputs) files.push_back({"-o", output});
-  require_different_files(files);
+  CommandFiles files{{{"IN", arguments.input}}, {}};
+  add(files.outputs, "-o", arguments.outputs);
+  require_usable(files);
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(
       1, [&](std::string_view stage, double fraction) { return display.show(stage, fraction); });
@@ -46,8 +44,8 @@ void run(const Arguments& arguments) {
     write_midsurface(middle, output);
     cancel.wrote(output);
   }
-  for (const std::string& warning : middle.warnings) fmt::print(stderr, "quadrille: {}\n", warning);
-  for (const std::string& problem : middle.problems) fmt::print(stderr, "quadrille: {}\n", problem);
+  for (const std::string& warning : middle.warnings) say("quadrille: {}", warning);
+  for (const std::string& problem : middle.problems) say("quadrille: {}", problem);
   if (!arguments.quiet) print(middle_table(middle));
 }
 

@@ -5,6 +5,7 @@
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
 #include "mesher/command/print_quality.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -23,7 +24,7 @@ void add_quality_command(CLI::App& app) {
   command
       ->add_option("--size-min", *size_min,
                    "minimum size of the mesh, in mm: sides shorter than half of it fail")
-      ->check(CLI::PositiveNumber);
+      ->check(number(positive));
   command->callback([input, limits_option, size_min] {
     require_readable(*input);
     limits_option->check();

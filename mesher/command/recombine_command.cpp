@@ -32,11 +32,7 @@ struct RecombineArguments {
 
 void check(const RecombineArguments& arguments) {
   check_format(arguments.output, 4);
-  require_writable(arguments.output);
-  if (!arguments.report.empty()) require_writable(arguments.report);
-  require_readable(arguments.input);
-  require_different_files(
-      {{"TRI", arguments.input}, {"-o", arguments.output}, {"--report", arguments.report}});
+  require_usable({{{"TRI", arguments.input}}, {{"-o", arguments.output}, {"--report", arguments.report}}});
 }
 
 void run(const RecombineArguments& arguments) {
@@ -80,7 +76,7 @@ void run(const RecombineArguments& arguments) {
   const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
     write_report(make_report(result, measures, context, arguments.input, notes), arguments.report);
-  for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", name, note);
+  for (const std::string& note : notes) say("{}: {}", name, note);
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
 

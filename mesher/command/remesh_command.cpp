@@ -30,16 +30,11 @@ struct RemeshArguments : GivenSettings {
 
 void check_files(const RemeshArguments& arguments) {
   check_formats(arguments, arguments.outputs);
-  std::vector<NamedFile> files{{"SURFACE", arguments.input}};
-  for (const std::filesystem::path& output : arguments.outputs) {
-    require_writable(output);
-    files.push_back({"-o", output});
-  }
-  if (!arguments.report.empty()) require_writable(arguments.report);
-  if (!arguments.picture.empty()) require_ending(arguments.picture, ".png", "--picture");
-  require_readable(arguments.input);
-  files.insert(files.end(), {{"--report", arguments.report}, {"--picture", arguments.picture}});
-  require_different_files(files);
+  CommandFiles files{{{"SURFACE", arguments.input}, {"--limits", arguments.limits.file()}}, {}};
+  add(files.outputs, "-o", arguments.outputs);
+  files.outputs.insert(files.outputs.end(),
+                       {{"--report", arguments.report}, {"--picture", arguments.picture, ".png"}});
+  require_usable(files);
 }
 
 nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
@@ -67,7 +62,7 @@ std::string fidelity_line(const RemeshFidelity& fidelity) {
 
 void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vector<std::string>& notes,
           const RemeshArguments& arguments, ExecutionContext& context) {
-  for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", arguments.input.string(), note);
+  for (const std::string& note : notes) say("{}: {}", arguments.input.string(), note);
   if (arguments.quiet && arguments.report.empty()) return;
   const MeshMeasures measures = on_threads(arguments.settings.threads, [&] { return measure(mesh); });
   if (!arguments.report.empty()) {
@@ -80,7 +75,6 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
-  arguments.limits.check();
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
     return display.show(stage, fraction);
@@ -89,6 +83,7 @@ void run(const RemeshArguments& arguments) {
       {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
   if (arguments.end_with_input) end_with_input();
+  arguments.limits.check();  // may wait, if the file is a pipe
   std::vector<std::string> notes;
   context.report(Stage::read, 0);
   const ShellMesh input = [&] {

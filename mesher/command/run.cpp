@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "geometry/base/printable.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/recombine_command.hpp"
 #include "mesher/command/setting_options.hpp"
@@ -28,7 +26,8 @@ enum ExitCode : int { success = 0, work_failed = 1, bad_use = 2, work_cancelled 
 /// Prints the message as one line on stderr, whatever it contains.
 int complain(std::string message, ExitCode code) {
   while (!message.empty() && message.back() == '\n') message.pop_back();
-  fmt::print(stderr, "quadrille: {}\n", printable(std::move(message), ' '));
+  std::replace(message.begin(), message.end(), '\n', ' ');  // of CLI11
+  say("quadrille: {}", message);
   return code;
 }
 
@@ -119,10 +118,8 @@ int run(int argc, char** argv) {
     return work({argv + std::min(argc, 1), argv + argc});
   } catch (const Error& error) {
     return complain(error);
-  } catch (const std::bad_alloc&) {
-    return complain("out of memory", work_failed);
   } catch (const std::exception& error) {
-    return complain(error.what(), work_failed);
+    return complain(quadrille::sentence_of(error), work_failed);
   } catch (...) {
     return complain("an error in the CAD library, without a description", work_failed);
   }

@@ -3,6 +3,7 @@
 #include "mesher/command/setting_options.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cstddef>
 #include <regex>
 #include <vector>
@@ -83,6 +84,17 @@ const Setting* list_of(const std::string& argument) {
 }
 
 }  // namespace
+
+CLI::Validator number(const NumberRule& rule) {
+  return {[rule](const std::string& text) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error == std::errc() && end == text.data() + text.size() && rule.allows(value))
+              return std::string();
+            return fmt::format("must be {}, not '{}'", rule.sentence(), text);
+          },
+          ""};
+}
 
 std::vector<std::string> with_options_repeated(const std::vector<std::string>& arguments) {
   std::vector<std::string> result;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/base/number_rule.hpp"
 #include "mesher/settings.hpp"
 
 namespace quadrille::command {
@@ -21,6 +22,9 @@ struct GivenSettings {
 /// Adds an option for each setting of the table, or only for those in `names`. `target` must live as long as
 /// the command. Wrong values throw Error (usage) while the arguments are parsed.
 void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names = {});
+
+/// Checks an option that is no setting: its text must be a number that the rule allows.
+CLI::Validator number(const NumberRule& rule);
 
 /// The arguments with the option repeated before each further value of a list: `--segments Edge1=4 Edge2=6`
 /// becomes `--segments Edge1=4 --segments Edge2=6`. CLI11 would take everything up to the next option, the

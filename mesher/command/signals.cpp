@@ -16,6 +16,7 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
+#include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/signals.hpp"
 
@@ -23,8 +24,10 @@ namespace quadrille::command {
 
 void ring_after(double seconds) {
   struct itimerval timer {};
-  timer.it_value.tv_sec = static_cast<time_t>(seconds);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+  // Rounded up: setitimer takes zero for "never".
+  const double microseconds = std::ceil(1e6 * seconds);
+  timer.it_value.tv_sec = static_cast<time_t>(microseconds / 1e6);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(std::fmod(microseconds, 1e6));
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
@@ -70,6 +73,15 @@ extern "C" void handle_crash(int) {
 
 extern "C" void handle_cpu_limit(int) {
   end_process("quadrille: the CPU time limit of this process (ulimit -t) is reached\n", 1);
+}
+
+/// Lets the handlers run on this thread after endless recursion, when its own stack has no room left.
+void give_handlers_a_stack() {
+  thread_local char stack[1 << 16];
+  stack_t alternative{};
+  alternative.ss_sp = stack;
+  alternative.ss_size = sizeof(stack);
+  ::sigaltstack(&alternative, nullptr);
 }
 
 /// Copies a line; cuts off what does not fit before its line break.
@@ -126,11 +138,8 @@ void report_crashes(const std::filesystem::path& file, std::string_view work) {
 #else
   copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged\n",
                                     printable(file.string()), work));
-  static char stack[1 << 16];  // after endless recursion there is no other stack left
-  stack_t alternative{};
-  alternative.ss_sp = stack;
-  alternative.ss_size = sizeof(stack);
-  ::sigaltstack(&alternative, nullptr);
+  give_handlers_a_stack();
+  prepare_threads(give_handlers_a_stack);
   struct sigaction action {};
   action.sa_handler = handle_crash;
   action.sa_flags = SA_ONSTACK;

@@ -40,8 +40,12 @@ void check_files(const SizesArguments& arguments) {
       throw usage_error("-o",
                         fmt::format("-o: the file name must end in .vtu or .json, not {}", output.string()));
   }
-  require_usable({arguments.input, arguments.outputs, arguments.settings.mesh.sizing, arguments.report,
-                  arguments.picture, arguments.write_size_field});
+  CommandFiles files{model_inputs(arguments.input, arguments.settings.mesh.sizing), {}};
+  add(files.outputs, "-o", arguments.outputs);
+  files.outputs.insert(files.outputs.end(), {{"--report", arguments.report},
+                                             {"--picture", arguments.picture, ".png"},
+                                             {"--write-size-field", arguments.write_size_field, ".vdb"}});
+  require_usable(files);
 }
 
 json sources_of(const SizeMap& map) {
@@ -174,7 +178,7 @@ void run(const SizesArguments& arguments) {
   const SizeMap map = size_map(model, options, context);
   write_outputs(map, arguments, context, cancel);
   for (const int face : map.missing)
-    fmt::print(stderr, "warning: Face{} is not shown: OpenCASCADE cannot triangulate it\n", face);
+    say("warning: Face{} is not shown: OpenCASCADE cannot triangulate it", face);
   if (!arguments.quiet) print(table_of(map));
 }
 
@@ -214,7 +218,7 @@ void add_sizes_command(CLI::App& app) {
       ->needs("--count-only")
       ->excludes("--size")
       ->excludes("--elements-per-diagonal")
-      ->check(CLI::PositiveNumber);
+      ->check(number(positive));
   command->add_flag("--end-with-input", arguments->end_with_input,
                     "end the work when standard input closes, for programs that start this one");
   command->add_flag("--quiet", arguments->quiet, "no progress, no table");

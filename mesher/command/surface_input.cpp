@@ -25,11 +25,11 @@ void add_surface_options(CLI::App& command, std::optional<double>& feature_angle
       .add_option("--feature-angle", feature_angle,
                   "angle in degrees between the normals of neighbors from which " + fold +
                       " (default 40, none in .msh files with several faces)")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(number({0, 180}));
   command
       .add_option("--merge", merge,
                   "merge nodes at most this far apart, in mm; 0 = only at the same position")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number({}));
 }
 
 Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file) {

@@ -10,7 +10,7 @@
 
 namespace quadrille::command {
 
-void print(std::string_view text) {
+void write_to_stdout(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(STDOUT_FILENO, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;

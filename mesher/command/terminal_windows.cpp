@@ -11,7 +11,7 @@
 
 namespace quadrille::command {
 
-void print(std::string_view text) {
+void write_to_stdout(std::string_view text) {
   constexpr std::size_t most = 1 << 14;  // consoles refuse more at once
   while (!text.empty()) {
     const unsigned count = static_cast<unsigned>(std::min(text.size(), most));

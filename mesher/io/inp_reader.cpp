@@ -102,11 +102,11 @@ class InpReader {
     return &set;
   }
 
-  /// 3, 4, 6 or 8 for shells, membranes, rigid and plane elements of all kinds (S4R, CPS6M, CAX4P, DC2D4); 0
-  /// for others.
+  /// 3, 4, 6, 8 or 9 for shells, membranes, rigid and plane elements of all kinds (S4R, CPS6M, CAX4P, DC2D4);
+  /// 0 for others.
   static int nodes_of_surface_element(const std::string& type) {
     static const std::regex pattern(
-        "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([3468])"
+        "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([34689])"
         "[A-Z]*5?");
     std::smatch match;
     if (type.size() > 16) return 0;  // matching a long text takes too much stack
@@ -120,7 +120,7 @@ class InpReader {
       return std::find(names.begin(), names.end(), type) != names.end();
     };
     if (const int nodes = nodes_of_surface_element(type); nodes > 0)
-      set_shape(nodes % 3 == 0 ? ElementShape::triangle : ElementShape::quad, nodes);
+      set_shape(nodes == 3 || nodes == 6 ? ElementShape::triangle : ElementShape::quad, nodes);
     else if (is_one_of({"T3D2", "T2D2", "B31", "B31R", "B21"}))
       set_shape(ElementShape::line, 2);
     else if (is_one_of({"T3D3", "T2D3", "B32", "B32R", "B22"}))
@@ -135,7 +135,8 @@ class InpReader {
 
   void set_shape(ElementShape shape, int nodes) {
     pending_.shape = shape;
-    pending_.node_count = nodes;
+    pending_.node_count = std::min(nodes, static_cast<int>(pending_.nodes.size()));
+    file_nodes_ = nodes;
     read_numbers_ = 0;
   }
 
@@ -199,9 +200,9 @@ class InpReader {
       const auto value = number<std::int64_t>(text, "an element's node");
       if (read_numbers_ == 0)
         pending_.number = value;
-      else
+      else if (read_numbers_ <= pending_.node_count)
         pending_.nodes[read_numbers_ - 1] = value;
-      if (++read_numbers_ <= pending_.node_count) continue;
+      if (++read_numbers_ <= file_nodes_) continue;
       // Beams and trusses have their middle node between the ends.
       if (pending_.shape == ElementShape::line && pending_.node_count == 3)
         std::swap(pending_.nodes[1], pending_.nodes[2]);
@@ -209,8 +210,7 @@ class InpReader {
       if (set_ != nullptr) add_to_set(pending_.number);
       read_numbers_ = 0;
       if (line.find_first_not_of(" \t,") != std::string_view::npos)
-        throw cursor_line(
-            fmt::format("element {} has more than {} nodes", pending_.number, pending_.node_count));
+        throw cursor_line(fmt::format("element {} has more than {} nodes", pending_.number, file_nodes_));
       return;
     }
   }
@@ -218,7 +218,7 @@ class InpReader {
   void finish_element() {
     if (block_ == Block::elements && read_numbers_ != 0)
       throw failure(cursor_.name(), fmt::format("{}: element {} has {} nodes instead of {}", cursor_.name(),
-                                                pending_.number, read_numbers_ - 1, pending_.node_count));
+                                                pending_.number, read_numbers_ - 1, file_nodes_));
   }
 
   void read_set(std::string_view line) {
@@ -303,6 +303,7 @@ class InpReader {
   MeshBuilder builder_;
   Block block_ = Block::other;
   FileElement pending_;
+  int file_nodes_ = 0;      // of each element in the file: those kept, and the middle of nine-node quads
   int read_numbers_ = 0;    // numbers read of the current element, with its own number
   FileSet* set_ = nullptr;  // receives the nodes, elements or numbers that follow
   bool generated_ = false;

@@ -11,6 +11,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
@@ -53,12 +54,12 @@ void write_format(const ShellMesh& mesh, const std::filesystem::path& path, Writ
                   AtomicFile& file) {
   const std::string ending = lower_ending(path);
   // Solvers would take the text after a line break in the title for a keyword.
-  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title);
+  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title, "?");
   const OutputMesh output(mesh, options.groups, options.quad_nodes);
   const bool tells_quality = ending == ".vtu" || ending == ".vtk";
   const std::vector<double> qualities = tells_quality ? quad_qualities(mesh) : std::vector<double>();
   if (ending == ".med") {
-    file.write(med_file(output, printable(path.stem().string()), options.title));
+    file.write(med_file(output, printable(path.stem().string(), "?"), options.title));
   } else if (ending == ".vtu") {
     file.write(vtu_file(output, qualities));
   } else {
@@ -79,6 +80,7 @@ constexpr std::string_view readable[] = {".msh", ".inp", ".unv", ".bdf", ".nas",
 }  // namespace
 
 std::string whole_file(const std::filesystem::path& path) {
+  require_readable(path);
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
   std::array<char, 1 << 16> block;

@@ -220,5 +220,5 @@ QUADRILLE_EXPORT std::string quadrille_med_file(const quadrille::OutputMesh& mes
   bytes = file.close();
   return {};
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/printable.hpp"
 
 namespace quadrille {
 
@@ -24,7 +25,9 @@ int corner_count(ElementShape shape) {
 
 void MeshBuilder::add_node(std::int64_t number, const Vector3& position) {
   if (number <= 0) throw failure(name_, fmt::format("{}: node number {} is not positive", name_, number));
-  if (!position.allFinite())
+  // Farther out, products of lengths such as those in areas and volumes become infinite.
+  constexpr double farthest = 1e75;
+  if (!(position.cwiseAbs().maxCoeff() < farthest) || !position.allFinite())
     throw failure(name_, fmt::format("{}: node {} has no finite position", name_, number));
   if (index_of(number) >= 0) throw failure(name_, fmt::format("{}: node {} is defined twice", name_, number));
   const int index = static_cast<int>(points_.size());
@@ -48,7 +51,8 @@ int MeshBuilder::index_of(std::int64_t number) const {
   return found == scattered_.end() ? -1 : found->second;
 }
 
-int MeshBuilder::group(const std::string& name, int number, int dimension) {
+int MeshBuilder::group(const std::string& given, int number, int dimension) {
+  const std::string name = printable(given, "_");  // names go to terminals and to files of lines
   const auto [found, is_new] =
       group_places_.try_emplace({name, number, dimension}, static_cast<int>(groups_.size()));
   if (is_new) groups_.push_back({name, number, dimension});

@@ -36,9 +36,10 @@ class MeshBuilder {
   void add_node(std::int64_t number, const Vector3& position);
   void add_element(const FileElement& element) { elements_.push_back(element); }
 
-  /// Index of the group with this name, number and dimension; adds the group if there is none.
-  /// \param dimension dimension of its elements; -1 = any, for formats that do not specify it.
-  int group(const std::string& name, int number, int dimension = -1);
+  /// Index of the group with this name (in which _ replaces control characters and bytes that are not UTF-8),
+  /// number and dimension; adds the group if there is none. \param dimension dimension of its elements; -1 =
+  /// any, for formats that do not specify it.
+  int group(const std::string& given, int number, int dimension = -1);
   /// Index of the set of groups `groups` with one more group added. \param groups 0 = the empty set.
   int joined(int groups, int group);
   /// Puts an element or node into a group; false when none of this number has been added.

@@ -5,10 +5,7 @@
 #include <BRepTools.hxx>
 #include <algorithm>
 #include <array>
-#include <cstdint>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 #include <sstream>
 #include <string_view>
 
@@ -33,30 +30,10 @@ std::string brep_text(const TopoDS_Shape& shape) {
   return text.str();
 }
 
-/// A new folder for temporary files, which others may not read.
-std::filesystem::path temporary_folder() {
-  std::random_device random;
-  std::filesystem::path name =
-      std::filesystem::temp_directory_path() /
-      fmt::format("quadrille-{:08x}{:08x}", std::uint32_t{random()}, std::uint32_t{random()});
-  std::error_code problem;
-  if (!std::filesystem::create_directory(name, problem))
-    throw failure(name.string(), fmt::format("{}: cannot be made", name.string()));
-  std::filesystem::permissions(name, std::filesystem::perms::owner_all, problem);
-  return name;
-}
-
-/// OpenCASCADE writes STEP only to a named file, so this uses a temporary folder.
-std::string step_text(const TopoDS_Shape& shape) {
-  const std::filesystem::path folder = temporary_folder(), file = folder / "middle.step";
-  const std::string problem =
-      Module("quadrille_step").function<ExchangeWriteFunction>("_write")(file.string(), shape);
+std::string step_text(const TopoDS_Shape& shape, const std::string& name) {
   std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
-  std::filesystem::remove(folder, ignored);
-  if (!problem.empty()) throw failure(file.string(), problem);
+  const std::string problem = Module("quadrille_step").function<ExchangeWriteFunction>("_write")(shape, text);
+  if (!problem.empty()) throw failure(name, fmt::format("{}: cannot be written as STEP: {}", name, problem));
   return text.str();
 }
 
@@ -109,7 +86,7 @@ void write_midsurface(const MidSurface& middle, const std::filesystem::path& pat
   if (ending == ".json")
     write_file(path, midsurface_json(middle).dump(2) + "\n");
   else if (ending == ".step" || ending == ".stp")
-    write_file(path, step_text(shape));
+    write_file(path, step_text(shape, path.string()));
   else
     write_file(path, brep_text(shape));
 }

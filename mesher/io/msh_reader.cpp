@@ -1,4 +1,4 @@
-/// Gmsh .msh, versions 2.2 and 4.1. Based on: the Gmsh reference manual, "MSH file format".
+/// Gmsh .msh, versions 1, 2.2 and 4.1. Based on: the Gmsh reference manual, "MSH file format".
 
 #include <fmt/format.h>
 
@@ -48,7 +48,9 @@ class MshReader {
 
  private:
   void read_format() {
-    if (cursor_.word() != "$MeshFormat")
+    const std::string_view heading = cursor_.word();
+    if (heading == "$NOD") return read_nodes1();
+    if (heading != "$MeshFormat")
       throw failure(
           cursor_.name(),
           fmt::format("{}: is not a Gmsh .msh file: it does not begin with $MeshFormat", cursor_.name()));
@@ -72,7 +74,11 @@ class MshReader {
   void read_section() {
     const std::string_view heading = cursor_.word();
     if (heading.empty()) return;
-    if (heading == "$Nodes") {
+    if (heading == "$ELM" && old_) {
+      begin_once(has_elements_, "$ELM");
+      read_elements1();
+      expect_end("$ENDELM");
+    } else if (heading == "$Nodes") {
       begin_once(has_nodes_, "$Nodes");
       new_ ? read_nodes4() : read_nodes2();
       expect_end("$EndNodes");
@@ -201,6 +207,29 @@ class MshReader {
     }
   }
 
+  /// Version 1 has no header: it begins with its nodes.
+  void read_nodes1() {
+    old_ = true;
+    begin_once(has_nodes_, "$NOD");
+    read_nodes2();
+    expect_end("$ENDNOD");
+  }
+
+  /// Lines such as: number, type, physical group, elementary entity, number of nodes, nodes.
+  void read_elements1() {
+    const std::int64_t count = count_of(cursor_.integer("the number of elements"), "the number of elements");
+    for (std::int64_t i = 0; i < count; ++i) {
+      const std::int64_t number = cursor_.integer("an element's number");
+      const std::int64_t type = cursor_.integer("an element's type");
+      const std::int64_t physical = cursor_.integer("an element's group");
+      const std::int64_t entity = cursor_.integer("an element's entity");
+      const ElementType& known = type_of(type, number);
+      if (cursor_.integer("an element's number of nodes") != known.file_nodes)
+        throw cursor_.error(fmt::format("element {} has a wrong number of nodes", number));
+      add_element(known, number, physical, cad_number(entity));
+    }
+  }
+
   const ElementType& type_of(std::int64_t type, std::int64_t element) const {
     for (const ElementType& known : element_types)
       if (known.type == type) return known;
@@ -226,15 +255,22 @@ class MshReader {
   }
 
   void read_element2(std::int64_t number, std::int64_t type, std::int64_t tags) {
-    FileElement element;
-    element.number = number;
     const ElementType& known = type_of(type, number);
     std::int64_t physical = 0;
+    int entity = 0;
     for (std::int64_t i = 0; i < count_of(tags, "an element's number of tags"); ++i) {
       const std::int64_t tag = small("an element's tag");
       if (i == 0) physical = tag;
-      if (i == 1) element.cad = cad_number(tag);
+      if (i == 1) entity = cad_number(tag);
     }
+    add_element(known, number, physical, entity);
+  }
+
+  /// Adds an element of version 1 or 2.2, whose nodes follow.
+  void add_element(const ElementType& known, std::int64_t number, std::int64_t physical, int entity) {
+    FileElement element;
+    element.number = number;
+    element.cad = entity;
     const int dimension = std::min(static_cast<int>(known.shape), 2);
     // Consecutive elements often have the same tags.
     if (const std::array<std::int64_t, 3> tagged{dimension, element.cad, physical}; tagged != last_tags_) {
@@ -292,6 +328,7 @@ class MshReader {
 
   TextCursor cursor_;
   MeshBuilder builder_;
+  bool old_ = false;  // version 1
   bool new_ = false;  // version 4.1
   bool binary_ = false;
   bool has_nodes_ = false, has_elements_ = false;

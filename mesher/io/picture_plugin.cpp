@@ -18,6 +18,7 @@
 #include <exception>
 #include <set>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/picture_scene.hpp"
@@ -178,7 +179,7 @@ QUADRILLE_EXPORT std::string quadrille_picture_draw(const quadrille::ShellMesh& 
   bytes = quadrille::draw(mesh, qualities, width, height);
   return bytes.empty() ? "VTK could not draw the picture" : "";
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }
 
 QUADRILLE_EXPORT std::string quadrille_picture_sizes(const quadrille::SizeMap& map, int width, int height,
@@ -188,5 +189,5 @@ QUADRILLE_EXPORT std::string quadrille_picture_sizes(const quadrille::SizeMap& m
   bytes = quadrille::draw_sizes(map, width, height);
   return bytes.empty() ? "VTK could not draw the picture" : "";
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }

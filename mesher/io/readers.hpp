@@ -15,8 +15,8 @@ namespace quadrille {
 /// The bytes of a file. Throws Error (failure) if it cannot be read.
 std::string whole_file(const std::filesystem::path& path);
 
-/// Parses Gmsh .msh 2.2 or 4.1, ASCII or binary. A quad's face is its elementary tag (2.2) or its entity
-/// (4.1); groups are the physical groups. \param name used in error messages.
+/// Parses Gmsh .msh 2.2 or 4.1, ASCII or binary, or 1. A quad's face is its elementary tag (2.2) or its
+/// entity (4.1); groups are the physical groups. \param name used in error messages.
 ShellMesh read_msh(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 

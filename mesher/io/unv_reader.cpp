@@ -6,7 +6,6 @@
 #include <cctype>
 #include <limits>
 
-#include "geometry/base/printable.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/text_cursor.hpp"
@@ -139,7 +138,9 @@ class UnvReader {
     if (kind >= 101 && kind <= 118)
       throw cursor_.error_before(fmt::format(
           "element {} is a volume (descriptor {}): only surface meshes are read", element.number, kind));
-    if (descriptor.nodes == 0 || count != descriptor.nodes)
+    const bool has_middle =
+        descriptor.nodes == 8 && count == 9;  // Gmsh's quads of nine nodes, the middle last
+    if (descriptor.nodes == 0 || (count != descriptor.nodes && !has_middle))
       throw cursor_.error_before(
           fmt::format("element {} of descriptor {} with {} nodes is not read", element.number, kind, count));
     if (descriptor.shape == ElementShape::line) needed_line();  // beams have a line with their sections
@@ -148,10 +149,11 @@ class UnvReader {
     const int corners = static_cast<int>(descriptor.shape) + 1;
     const bool second = descriptor.nodes > corners;
     std::string_view nodes;
-    for (int i = 0; i < descriptor.nodes; ++i) {
+    for (int i = 0; i < count; ++i) {
       if (i % 8 == 0) nodes = needed_line();
       const int place = !second ? i : i % 2 == 0 ? i / 2 : corners + i / 2;
-      element.nodes[place] = next<std::int64_t>(nodes, "an element's node");
+      const auto node = next<std::int64_t>(nodes, "an element's node");
+      if (i < descriptor.nodes) element.nodes[place] = node;
     }
     builder_.add_element(element);
   }
@@ -187,7 +189,7 @@ class UnvReader {
       if (missing > 0)
         builder_.note(
             fmt::format("the group {} holds {} members that the file does not define: they are left out",
-                        printable(group.name), missing));
+                        group.name, missing));
     }
   }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <vtkAlgorithm.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
@@ -10,6 +9,8 @@
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkOBJReader.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
 #include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkSTLReader.h>
@@ -31,22 +32,38 @@ namespace quadrille {
 
 namespace {
 
-/// The first error that a reader reports.
-class FirstError {
+/// Keeps the first complaint, of the reader itself or of one that it uses, in place of printing it.
+class Complaints : public vtkOutputWindow {
  public:
-  explicit FirstError(vtkObject* reader) {
-    command_->SetClientData(this);
-    command_->SetCallback([](vtkObject*, unsigned long, void* self, void* text) {
-      std::string& kept = static_cast<FirstError*>(self)->text_;
-      if (kept.empty() && text != nullptr) kept = static_cast<const char*>(text);
-    });
-    reader->AddObserver("ErrorEvent", command_);
-  }
-  const std::string& text() const { return text_; }
+  static Complaints* New() { VTK_STANDARD_NEW_BODY(Complaints); }
+  vtkTypeMacro(Complaints, vtkOutputWindow);
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override { keep(text); }
+  void DisplayGenericWarningText(const char* text) override { keep(text); }
+  void DisplayWarningText(const char*) override {}
+  const std::string& first() const { return first_; }
 
  private:
-  vtkNew<vtkCallbackCommand> command_;
-  std::string text_;
+  void keep(const char* text) {
+    if (first_.empty() && text != nullptr) first_ = text;
+  }
+  std::string first_;
+};
+
+/// Hears VTK's complaints during its lifetime.
+class Hearing {
+ public:
+  Hearing() {
+    vtkOutputWindow::SetInstance(complaints_);
+    vtkObject::GlobalWarningDisplayOn();  // VTK makes no texts otherwise
+  }
+  ~Hearing() { vtkOutputWindow::SetInstance(nullptr); }
+  Hearing(const Hearing&) = delete;
+  Hearing& operator=(const Hearing&) = delete;
+  const std::string& first() const { return complaints_->first(); }
+
+ private:
+  vtkNew<Complaints> complaints_;
 };
 
 /// VTK's messages have several lines. The first names the source, the last says what is wrong.
@@ -61,12 +78,15 @@ std::string last_line(std::string text) {
 
 template <class Reader>
 vtkSmartPointer<vtkDataSet> read_with(Reader* reader, const std::string& path) {
-  const FirstError error(reader);
+  const Hearing complaints;
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  if (!error.text().empty() || reader->GetErrorCode() != 0 || mesh == nullptr)
-    throw failure(path, error.text().empty() ? "VTK could not read it" : last_line(error.text()));
+  const std::string& problem = complaints.first();
+  if (!problem.empty() || reader->GetErrorCode() != 0 || mesh == nullptr)
+    throw failure(path, problem.empty() ? "VTK could not read it" : last_line(problem));
+  if (mesh->GetNumberOfPoints() <= 0 || mesh->GetNumberOfCells() <= 0)
+    throw failure(path, "it holds no elements");
   return mesh;
 }
 
@@ -253,7 +273,6 @@ SolverResult::Element brick_of(vtkDataSet* mesh, vtkIdType cell) {
 
 QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const std::string& ending,
                                                 quadrille::ImportedMesh& mesh) try {
-  vtkObject::GlobalWarningDisplayOff();
   const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ending);
   mesh.points.resize(read->GetNumberOfPoints());
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -264,21 +283,19 @@ QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const s
   quadrille::import_node_sets(read, mesh);
   return {};
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }
 
 QUADRILLE_EXPORT std::string quadrille_vtk_result(const std::string& path,
                                                   quadrille::SolverResult& result) try {
-  vtkObject::GlobalWarningDisplayOff();
   const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ".vtu");
   result.points.resize(read->GetNumberOfPoints());
   for (std::size_t i = 0; i < result.points.size(); ++i)
     read->GetPoint(static_cast<vtkIdType>(i), result.points[i].data());
-  if (read->GetNumberOfCells() == 0) return "there are no elements in it";
   for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell)
     result.elements.push_back(quadrille::brick_of(read, cell));
   result.displacements = quadrille::displacements_of(read);
   return {};
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }

@@ -15,6 +15,7 @@
 #include <exception>
 #include <limits>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 
@@ -116,5 +117,5 @@ QUADRILLE_EXPORT std::string quadrille_vtk_file(const quadrille::OutputMesh& mes
   bytes = quadrille::vtu_bytes(quadrille::GridMaker(mesh).make(qualities));
   return bytes.empty() ? "VTK could not write the mesh" : "";
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }

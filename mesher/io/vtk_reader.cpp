@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/free_memory.hpp"
 #include "geometry/base/isolated_work.hpp"
@@ -110,10 +111,13 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
   // Counts in a damaged file may be larger than the file, and VTK loops as often as they say.
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(name, ignored);
-  options.time_limit = 20 + (ignored ? 0 : static_cast<double>(bytes) / 1e6);
+  const double size = ignored ? 0 : static_cast<double>(bytes);
+  options.time_limit = 20 + size / 1e6;
   options.too_long =
       fmt::format("{}: reading it takes longer than {:g} s: it may be damaged", name, options.time_limit);
-  if (const double most = free_memory(); std::isfinite(most)) options.memory = static_cast<std::size_t>(most);
+  // Nor does VTK compare counts with the file before it takes memory for them. Files may be compressed.
+  constexpr double base = 1e9, expansion = 200;
+  options.memory = static_cast<std::size_t>(std::min(free_memory(), base + expansion * size));
   const auto work = [&](std::ostream& out) {
     try {
       const ImportedMesh mesh = vtk_mesh(name, ending);
@@ -140,6 +144,7 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
 }  // namespace
 
 ShellMesh read_by_vtk(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  require_readable(path);
   const std::string name = path.string(), ending = lower_ending(path);
   ImportedMesh mesh = read_isolated(name, ending);
   MeshBuilder builder(name);

@@ -15,6 +15,7 @@
 
 #include <exception>
 
+#include "geometry/base/error.hpp"
 #include "mesher/io/module_export.hpp"
 #include "mesher/io/modules.hpp"
 
@@ -73,5 +74,5 @@ QUADRILLE_EXPORT std::string quadrille_vtk_sizes(const quadrille::SizeMap& map, 
   bytes = writer->GetOutputString();
   return {};
 } catch (const std::exception& error) {
-  return error.what();
+  return quadrille::sentence_of(error);
 }

@@ -41,7 +41,8 @@ TEST(IsolatedAnswer, BringsResultsAndErrors) {
             "failure: the sentence");
   EXPECT_EQ(taken(written([](std::ostream&) { throw usage_error("x", "wrong use"); })), "usage: wrong use");
   EXPECT_EQ(taken(written([](std::ostream&) { throw std::bad_alloc(); })),
-            "failure: part.step: is too large for the memory of this machine");
+            "failure: part.step: there is not enough memory for it (a damaged file may promise more than it "
+            "holds)");
   EXPECT_EQ(taken(written([](std::ostream&) { throw std::runtime_error("why"); })),
             "failure: part.step: why");
 }

@@ -169,6 +169,40 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"quality square.msh --limits text.step", 1, "neither JSON"},
         Mistake{"mesh IN OUT --size 1e-4", 2, "million"}));
 
+const std::pair<const char*, std::vector<const char*>> numeric_options[] = {
+    {"recombine square.msh OUT --merge", {"nan", "inf", "-1"}},
+    {"recombine square.msh OUT --feature-angle", {"nan", "181", "-1"}},
+    {"remesh square.msh OUT --size 1 --merge", {"nan"}},
+    {"adapt square.msh square.msh -o a.vdb --count", {"0", "nan", "inf", "-5"}},
+    {"adapt square.msh square.msh -o a.vdb --error", {"0", "1", "nan"}},
+    {"adapt square.msh square.msh -o a.vdb --growth", {"0", "nan", "inf"}},
+    {"adapt square.msh square.msh -o a.vdb --poisson", {"0.5", "nan", "-0.1"}},
+    {"adapt square.msh square.msh -o a.vdb --size-min", {"nan", "-1"}},
+    {"adapt square.msh square.msh -o a.vdb --size-max", {"inf", "-1"}},
+    {"sizes IN --count-only --wanted-quads", {"0", "nan", "inf"}},
+    {"quality square.msh --size-min", {"-1", "0", "nan", "inf"}},
+    {"mesh IN OUT --time-limit", {"nan", "inf"}},
+};
+
+std::vector<Mistake> wrong_numbers() {
+  std::vector<Mistake> mistakes;
+  for (const auto& [command, values] : numeric_options)
+    for (const char* value : values)
+      mistakes.push_back({fmt::format("{} {}", command, value), 2, " must be a "});
+  return mistakes;
+}
+
+INSTANTIATE_TEST_SUITE_P(Numbers, Mistakes, testing::ValuesIn(wrong_numbers()));
+
+/// Points that close coincide to OpenCASCADE, and counts of them are beyond what a double holds.
+INSTANTIATE_TEST_SUITE_P(
+    TinySizes, Mistakes,
+    testing::Values(Mistake{"mesh IN OUT --size 1e-200", 2, "1e-200 mm is requested"},
+                    Mistake{"mesh IN OUT --elements-per-diagonal 1e300", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --size-on Face1=1e-200", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --layers Edge1=1e-300,1.2,6", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --layers Vertex1=1e-300,1.2,6", 2, "mm is requested"}));
+
 /// Refused before anything is spent: within 5 s of CPU, and 2 GB of memory beyond what libraries map.
 class TooMuch : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
@@ -628,6 +662,147 @@ TEST(Command, GivesUpReadingAfterItsLimit) {
     EXPECT_EQ(read("--time-limit 0.3"),
               "quadrille: the time limit of 0.3 s is reached, and nothing was written\n");
   }
+}
+
+/// setitimer() counts microseconds, and takes none for "never".
+TEST(Command, TheShortestTimeLimitHolds) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.brep").c_str(), 0600), 0);
+  const auto result =
+      test::run(fmt::format("cd {} && timeout 20 {} mesh pipe.brep -o a.msh --time-limit 1e-7 2>&1",
+                            folder.path().string(), program));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out, "quadrille: the time limit of 1e-07 s is reached, and nothing was written\n");
+}
+
+/// All inputs count, not only the model: nobody writes to the pipe of limits.
+TEST(Command, TheTimeLimitHoldsForEveryInput) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "limits.json").c_str(), 0600), 0);
+  ASSERT_EQ(::mkfifo((folder / "points.csv").c_str(), 0600), 0);
+  for (const char* option : {"--limits limits.json", "--size-points points.csv"}) {
+    const auto result =
+        test::run(fmt::format("cd {} && timeout 20 {} mesh {} -o a.msh {} --time-limit 0.3 2>&1",
+                              folder.path().string(), program, box, option));
+    EXPECT_EQ(result.exit_code, 1) << option;
+    EXPECT_EQ(result.out, "quadrille: the time limit of 0.3 s is reached, and nothing was written\n")
+        << option;
+  }
+}
+
+TEST(Command, LimitsMayComeThroughAPipe) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "limits.json").c_str(), 0600), 0);
+  const auto result =
+      test::run(fmt::format("cd {} && {{ echo '{{\"aspect\": 1.0001}}' > limits.json & }}; timeout 20 {} "
+                            "mesh {} -o a.msh --size 2.9 --quiet "
+                            "--limits limits.json 2>&1",
+                            folder.path().string(), program, box));
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_PRED2(contains, result.out, "quads are outside the limits");
+}
+
+struct TwoRoles {
+  std::string command, input, output;
+};
+
+/// Through a symbolic and a hard link as well.
+TEST(Command, NoOutputReplacesAnInput) {
+  const TemporaryFolder folder;
+  for (const auto& [command, input, output] :
+       {TwoRoles{"mesh " + box + " -o a.msh --limits @", "limits.json", "--report"},
+        TwoRoles{"mesh " + box + " --limits @", "limits.msh", "-o"},
+        TwoRoles{"mesh " + box + " -o a.msh --size-points @", "points.csv", "--report"},
+        TwoRoles{"remesh none.stl -o a.msh --size 1 --limits @", "limits.json", "--report"},
+        TwoRoles{"adapt none.inp none.frd -o a.vdb --before @", "before.json", "--report"},
+        TwoRoles{"sizes " + box + " -o a.vtu --size-points @", "points.csv", "--report"}}) {
+    const std::string text = "{\"aspect\": 5}\n";
+    test::write_text(folder / input, text);
+    for (const char* none : {"none.stl", "none.inp", "none.frd"}) test::write_text(folder / none, "");
+    const std::string ending = std::filesystem::path(input).extension().string(), soft = "soft" + ending,
+                      hard = "hard" + ending;
+    std::filesystem::remove(folder / soft);
+    std::filesystem::remove(folder / hard);
+    std::filesystem::create_symlink(input, folder / soft);
+    std::filesystem::create_hard_link(folder / input, folder / hard);
+    for (const std::string& name : {input, soft, hard}) {
+      std::string line = command;
+      line.replace(line.find('@'), 1, input);
+      const auto result = stderr_of(folder, fmt::format("{} {} {}", line, output, name));
+      EXPECT_EQ(result.exit_code, 2) << line << ' ' << name;
+      EXPECT_PRED2(contains, result.out, "is the same file as");
+      EXPECT_EQ(test::file_text(folder / input), text);
+    }
+  }
+}
+
+/// Whoever could act as the owner of the older file's program must not as that of the mesh.
+TEST(Command, AnOverwrittenFileKeepsNoRightsOfItsOwner) {
+  const TemporaryFolder folder;
+  test::write_text(folder / "a.msh", "");
+  ASSERT_EQ(::chmod((folder / "a.msh").c_str(), 06751), 0);
+  EXPECT_EQ(stderr_of(folder, "mesh " + box + " -o a.msh --quiet").exit_code, 0);
+  struct stat status {};
+  ASSERT_EQ(::stat((folder / "a.msh").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777, 0751U);
+}
+
+/// Escape sequences, as bytes and as UTF-8, a mark that turns the direction of writing, a byte that is no
+/// UTF-8.
+TEST(Command, TerminalsGetNothingToObey) {
+  const std::string hostile = "a\x1b]0;x\x07\xc2\x9b\xe2\x80\xae\xff",
+                    shown = "a\\x1b]0;x\\x07\\u009b\\u202e\\xff";
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& arguments) {
+    const std::string out =
+        test::run(fmt::format("cd {} && timeout 60 {} {} 2>&1", folder.path().string(), program, arguments))
+            .out;
+    for (const char* part : {"\x1b", "\x07", "\xc2\x9b", "\xe2\x80\xae", "\xff"})
+      EXPECT_FALSE(contains(out, part)) << arguments;
+    return out;
+  };
+  test::write_text(folder / "limits.json", "{\"a\xe2\x80\xae\": 1}");
+  EXPECT_PRED2(contains, told("mesh " + box + " -o a.msh --limits limits.json"), "a\\u202e");
+  for (const std::string& arguments :
+       {"info '" + hostile + ".step'", "mesh " + box + " -o '" + hostile + "'",
+        "info in.step '" + hostile + "'", "mesh " + box + " -o a.msh --size '" + hostile + "'",
+        "mesh " + box + " -o a.msh --faces '" + hostile + "'"})
+    EXPECT_PRED2(contains, told(arguments), shown);
+  // Into files, group names go without what was escaped.
+  test::write_text(folder / "a.msh",
+                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"" + hostile +
+                       "\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
+                       "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n");
+  for (const char* ending : {"msh", "inp", "unv", "bdf", "vtk"}) {
+    told(fmt::format("recombine a.msh -o out.{} --report r.json", ending));
+    const std::string text = test::file_text(folder / fmt::format("out.{}", ending));
+    EXPECT_FALSE(text.empty());
+    for (const char* part : {"\x1b", "\x07", "\xc2\x9b", "\xe2\x80\xae", "\xff"})
+      EXPECT_FALSE(contains(text, part)) << ending;
+  }
+}
+
+/// A device and a file of four terabytes, as each kind of input.
+TEST(Command, WhatHasNoEndIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* name : {"large.brep", "large.json", "large.csv", "large.msh"}) {
+    test::write_text(folder / name, "");
+    std::filesystem::resize_file(folder / name, std::uintmax_t{1} << 42);
+    std::filesystem::create_symlink("/dev/zero", folder / ("zero" + std::string(name).substr(5)));
+  }
+  const int before = folder.file_count();
+  for (const std::string kind : {"large", "zero"}) {
+    for (const std::string& arguments :
+         {"mesh " + kind + ".brep -o a.msh", "info " + kind + ".brep", "quality " + kind + ".msh",
+          "mesh " + box + " -o a.msh --limits " + kind + ".json",
+          "mesh " + box + " -o a.msh --size-points " + kind + ".csv"}) {
+      const auto result = test::run(
+          fmt::format("cd {} && ulimit -t 20 && {} {} 2>&1", folder.path().string(), program, arguments));
+      EXPECT_EQ(result.exit_code, 1) << arguments;
+      EXPECT_PRED2(contains, result.out, "cannot be read: it ") << arguments;
+    }
+  }
+  EXPECT_EQ(folder.file_count(), before);
 }
 
 TEST(Command, NamesThePictureThatCannotBeDrawn) {

@@ -85,6 +85,16 @@ TEST_F(MidsurfaceCommand, WritesFacesThatReadBackAlike) {
   EXPECT_NEAR(told["area_times_thickness"].get<double>() / told["volume"].get<double>(), 1, 1e-9);
 }
 
+/// Nothing is made there, so nothing stays there if the process is killed.
+TEST_F(MidsurfaceCommand, NeedsNoTemporaryFolder) {
+  const std::string command = fmt::format("cd {} && TMPDIR=/nowhere timeout 300 {}/quadrille ",
+                                          path("").string(), QUADRILLE_BINARY_DIR);
+  for (const char* arguments : {"midsurface thin.brep -o a.step --quiet 2>&1", "info a.step 2>&1"}) {
+    const auto result = test::run(command + arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.out;
+  }
+}
+
 TEST_F(MidsurfaceCommand, RefusesWhatIsNotThin) {
   const auto block = quadrille_says("midsurface block.brep -o m.brep");
   EXPECT_EQ(block.exit_code, 1);

@@ -218,6 +218,45 @@ TEST(Readers, BdfTakesQuadsOfNineNodesAndTellsOfBars) {
   EXPECT_EQ(notes, std::vector<std::string>{"2 elements CBAR are left out"});
 }
 
+/// Gmsh writes the middle last. It is dropped, and midside nodes keep their sides.
+TEST(Readers, QuadsOfNineNodesLoseTheirMiddle) {
+  const TemporaryFolder folder;
+  const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
+  std::string inp = "*NODE\n", unv = "    -1\n  2411\n";
+  for (int i = 0; i < 9; ++i) {
+    inp += fmt::format("{}, {}, {}, 0\n", i + 1, at[i][0], at[i][1]);
+    unv += fmt::format("{} 1 1 11\n{} {} 0\n", i + 1, at[i][0], at[i][1]);
+  }
+  inp += "*ELEMENT, type=M3D9, ELSET=all\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9\n";
+  unv += "    -1\n    -1\n  2412\n1 95 1 1 7 9\n1 5 2 6 3 7 4 8\n9\n    -1\n";
+  test::write_text(folder / "a.inp", inp);
+  test::write_text(folder / "a.unv", unv);
+  for (const char* name : {"a.inp", "a.unv"}) {
+    SCOPED_TRACE(name);
+    const ShellMesh mesh = read_mesh(folder / name);
+    ASSERT_EQ(mesh.quads.size(), 1U);
+    EXPECT_EQ(mesh.points.size(), 8U);
+    EXPECT_EQ(mesh.order, 2);
+    for (int side = 0; side < 4; ++side) {
+      const Vector3 &a = mesh.points[mesh.quads[0][side]], &b = mesh.points[mesh.quads[0][(side + 1) % 4]];
+      EXPECT_EQ(mesh.points[mesh.midsides[0][side]], (0.5 * (a + b)).eval());
+    }
+  }
+}
+
+TEST(Readers, MshOfTheFirstVersionHasNoHeader) {
+  const TemporaryFolder folder;
+  test::write_text(
+      folder / "a.msh",
+      "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$ENDNOD\n$ELM\n3\n1 1 7 5 2 1 2\n2 2 9 3 3 1 2 3\n"
+      "3 2 9 3 3 1 3 4\n$ENDELM\n");
+  const ShellMesh mesh = read_mesh(folder / "a.msh");
+  EXPECT_EQ(mesh.triangle_faces, (std::vector<int>{3, 3}));
+  ASSERT_EQ(mesh.segments.size(), 1U);
+  ASSERT_EQ(mesh.groups.size(), 2U);
+  EXPECT_EQ(mesh.groups[0].number + mesh.groups[1].number, 16);
+}
+
 TEST(Readers, InpHasTheMiddleOfALineBetweenItsEnds) {
   const TemporaryFolder folder;
   test::write_text(folder / "a.inp",
@@ -323,6 +362,12 @@ struct Damaged {
   std::string file, text, says;
 };
 
+/// A file of one quad with these points.
+std::string vtk_quad(const std::string& points) {
+  return "# vtk DataFile Version 2.0\nA quad\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
+         "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n9\n";
+}
+
 class DamagedFiles : public testing::TestWithParam<Damaged> {};
 INSTANTIATE_TEST_SUITE_P(
     Readers, DamagedFiles,
@@ -346,6 +391,18 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"a.msh",
                 "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 top\n$EndPhysicalNames\n",
                 "line 6: expected a name in quotes"},
+        Damaged{
+            "b.ply",
+            "ply\nformat ascii 1.0\nelement vertex -1\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face -1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
+            "not enough memory"},
+        // One coordinate too many, and too few; a place whose squares are infinite; counts of 10^9 in 200
+        // bytes.
+        Damaged{"b.vtk", vtk_quad("POINTS 4 double\n0 0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "b.vtk"},
+        Damaged{"c.vtk", vtk_quad("POINTS 4 double\n0 0 0\n1 0 0\n1 0\n0 1 0\n"), "c.vtk"},
+        Damaged{"d.vtk", vtk_quad("POINTS 4 double\n0 0 0\n1 0 0\n1e308 1 0\n0 1 0\n"),
+                "node 3 has no finite"},
+        Damaged{"e.vtk", vtk_quad("POINTS 1000000000 double\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "e.vtk"},
         Damaged{"a.xyz", "", "unknown mesh format (known are .msh, .inp, .unv, .bdf, .nas, .dat, "}),
     [](const auto& file) {
       std::string name = file.param.file;
@@ -364,6 +421,26 @@ TEST_P(DamagedFiles, GiveOneSentenceThatNamesTheFile) {
     EXPECT_NE(what.find(GetParam().says), std::string::npos) << what;
     EXPECT_NE(what.find(GetParam().file), std::string::npos) << what;
     EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    for (const char* inner : {"std::", "vector::", "_M_"})
+      EXPECT_EQ(what.find(inner), std::string::npos) << what;
+  }
+}
+
+TEST(Readers, WhatHasNoEndIsNotRead) {
+  const TemporaryFolder folder;
+  for (const char* name : {"zero.msh", "zero.stl", "large.inp", "large.vtk"}) {
+    if (name[0] == 'z') std::filesystem::create_symlink("/dev/zero", folder / name);
+    if (name[0] == 'l') {
+      test::write_text(folder / name, "");
+      std::filesystem::resize_file(folder / name, std::uintmax_t{1} << 42);
+    }
+    try {
+      read_mesh(folder / name);
+      ADD_FAILURE() << name << ": nothing was refused";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string(name) + ": cannot be read"), std::string::npos)
+          << error.what();
+    }
   }
 }
 

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepTools.hxx>
+#include <gp_Pln.hxx>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <sstream>
 
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
@@ -195,6 +201,18 @@ TEST(FaceGaps, CornersOfABoxAreNone) {
   for (const FaceId face : model.shape().faces.ids())
     EXPECT_TRUE(FaceGaps(model.shape(), face, 9, 0.1).find(context).empty());
   EXPECT_FALSE(FaceGaps(model.shape(), face_id(1), 30, 0.1).find(context).empty());
+}
+
+/// A wedge narrows to nothing: no gap there is too narrow to look for the next one.
+TEST(FaceGaps, EndWhereAWedgeDoes) {
+  BRepBuilderAPI_MakePolygon wire(gp_Pnt(100, 0, 0), gp_Pnt(110, 0, 0), gp_Pnt(110, 3, 0), true);
+  std::ostringstream text;
+  BRepTools::Write(BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Face(), text);
+  const CadModel model = CadModel::from_brep(text.str(), "wedge");
+  ExecutionContext context;
+  const auto gaps = FaceGaps(model.shape(), face_id(1), 5, 1e-15).find(context);
+  EXPECT_GT(gaps.size(), 10U);
+  EXPECT_LT(gaps.size(), 10000U);
 }
 
 TEST(SizeSources, SoManyElementsAreAcrossAGap) {

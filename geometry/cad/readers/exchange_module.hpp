@@ -2,6 +2,7 @@
 /// The functions of the STEP and IGES modules.
 
 #include <TopoDS_Shape.hxx>
+#include <ostream>
 #include <string>
 
 namespace quadrille {
@@ -10,6 +11,6 @@ namespace quadrille {
 using ExchangeReadFunction = std::string(const std::string& path, TopoDS_Shape& shape);
 
 /// Type of <prefix>_write. Returns an empty string, or a sentence that says what went wrong.
-using ExchangeWriteFunction = std::string(const std::string& path, const TopoDS_Shape& shape);
+using ExchangeWriteFunction = std::string(const TopoDS_Shape& shape, std::ostream& out);
 
 }  // namespace quadrille

@@ -2,6 +2,9 @@
 
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepData_Protocol.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepData_StepWriter.hxx>
 
 #include "geometry/cad/readers/transfer.hpp"
 
@@ -13,15 +16,16 @@ QUADRILLE_EXPORT std::string quadrille_step_read(const std::string& path, TopoDS
   return quadrille::transfer<STEPControl_Reader>(path, "STEP", shape);
 }
 
-QUADRILLE_EXPORT std::string quadrille_step_write(const std::string& path, const TopoDS_Shape& shape) {
+QUADRILLE_EXPORT std::string quadrille_step_write(const TopoDS_Shape& shape, std::ostream& out) {
   try {
     STEPControl_Writer writer;
     Interface_Static::SetCVal("write.step.unit", "MM");
-    if (writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone &&
-        writer.Write(path.c_str()) == IFSelect_RetDone)
-      return {};
-    return fmt::format("{} could not be written as STEP", path);
+    if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) return "OpenCASCADE refused the shape";
+    const Handle(StepData_StepModel) model = writer.Model();
+    StepData_StepWriter text(model);
+    text.SendModel(Handle(StepData_Protocol)::DownCast(model->Protocol()));
+    return text.Print(out) ? "" : "OpenCASCADE could not print the model";
   } catch (const Standard_Failure& problem) {
-    return fmt::format("{} could not be written as STEP ({})", path, problem.GetMessageString());
+    return problem.GetMessageString();
   }
 }

@@ -1,0 +1,39 @@
+/// Refuses inputs that cannot be read and those without end, before memory is taken for them.
+
+#include <filesystem>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "geometry/base/error.hpp"
+#include "geometry/base/file_access.hpp"
+#include "geometry/base/free_memory.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// Why a path that the system lets this process read is no input; empty if it is one.
+std::string why_no_input(const std::filesystem::path& path) {
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (std::filesystem::is_directory(status)) return "it is a folder, not a file";
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    return "it is a device, not a file";
+  if (!std::filesystem::is_regular_file(status)) return {};  // a pipe, which ends with its writer
+  // What is made of the bytes takes at least as much memory as they do.
+  const double needed = 2 * static_cast<double>(std::filesystem::file_size(path, problem));
+  const double free = free_memory();
+  if (problem || !(needed > free)) return {};
+  return fmt::format("it takes {:.3g} GB of memory, and {:.3g} GB are free", needed / 1e9, free / 1e9);
+}
+
+}  // namespace
+
+void require_readable(const std::filesystem::path& path) {
+  std::string why = why_unreadable(path);
+  if (why.empty()) why = why_no_input(path);
+  if (!why.empty()) throw failure(path.string(), fmt::format("{}: cannot be read: {}", path.string(), why));
+}
+
+}  // namespace quadrille
