@@ -39,7 +39,7 @@ def main(divisions: float, parts: List[str]) -> None:
         size = model.diagonal / divisions
         mesh = quadrille.mesh(model, size=size, size_min=size / 8, order=1, threads=1)
         quality, sharp = mesh.quality(), sharp_corners(mesh)
-        counts = len(mesh.quads), quality["criteria"]["failing_but_warp"], len(sharp)
+        counts = len(mesh.quads), quality["criteria"]["outside"], len(sharp)
         total += counts
         bound = f", at most {sharp.min() / 90:.3f}" if len(sharp) else ""
         print(f"{Path(part).stem}: {counts[0]} quads, {counts[1]} outside, {counts[2]} in sharp corners; "

@@ -40,6 +40,7 @@
 #include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/remedies.hpp"
 #include "mesher/shell/shell_check.hpp"
+#include "mesher/shell/size_fidelity.hpp"
 
 namespace quadrille {
 
@@ -147,7 +148,8 @@ class Job {
     result.crossed_edges.erase(std::unique(result.crossed_edges.begin(), result.crossed_edges.end()),
                                result.crossed_edges.end());
     name_placed_nodes(result);
-    if (options_.sizing.spacings.empty()) result.size_min = limits_.least;
+    result.size_min = limits_.size_min;
+    if (limits_.least < limits_.size_min) result.finer_quads = finer_quads(result, field);
     result.poor_quads = poor_quads(shape_, result);
     return result;
   }
@@ -170,13 +172,26 @@ class Job {
     return options;
   }
 
-  /// The model with edges divided at slivers, unless users prescribe divisions or matches, which name the
-  /// original edges.
-  static CadModel divided(const CadModel& model, const FaceFlags& used, const MeshOptions& options) {
+  /// The model with edges divided at slivers, except around edges whose nodes users prescribe or match.
+  static CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& options) {
     const SizingOptions& sizing = options.sizing;
-    if (!sizing.spacings.empty() || !sizing.layers.edges.empty() || !sizing.matches.empty()) return model;
+    const CadShape& source = model.shape();
+    const auto leave = [&](EdgeId edge) {
+      for (const FaceId face : source.edges[edge].faces) used[face] = 0;
+    };
+    for (const EdgeId id : source.edges.ids()) {
+      const int number = source.edges[id].number;
+      if (sizing.spacings.contains(number) || sizing.layers.edges.contains(number)) leave(id);
+    }
+    for (const MatchedPair& pair : sizing.matches)
+      for (const int number : {pair.first, pair.second}) {
+        if (pair.dimension == 1) leave(EdgeId::from_number(number));
+        if (pair.dimension == 1) continue;
+        for (const CadWire& wire : source.faces[FaceId::from_number(number)].wires)
+          for (const Coedge& coedge : wire.coedges) leave(coedge.edge);
+      }
     const double reach = suppression_reach(size_limits(model, options.sizing), options);
-    const auto shape = divided_at_slivers(model.shape(), used, reach);
+    const auto shape = divided_at_slivers(source, used, reach);
     return shape ? CadModel(shape) : model;
   }
 
@@ -373,9 +388,6 @@ class Job {
       for (const CadWire& wire : shape_.faces[face].wires) {
         for (const Coedge& coedge : wire.coedges) of_failed[coedge.edge] = 1;
       }
-    }
-    for (const EdgeId edge : of_failed.ids()) {
-      if (of_failed[edge]) plan_.factor[edge] = 1;
     }
     std::erase_if(plan_.finer, [&](const EdgeStretch& part) { return of_failed[part.edge] != 0; });
     return any;

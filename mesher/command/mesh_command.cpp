@@ -189,7 +189,7 @@ struct Meshed {
   const std::optional<SizeFidelity>& sizes;
 };
 
-/// Adds a note on sides below half the least size, with what forces most of them.
+/// Adds a note on quads outside the limits and short sides, with what forces most of them.
 void tell_poor_quads(const ShellMesh& mesh) {
   if (mesh.poor_quads.empty()) return;
   int quads = 0;

@@ -57,8 +57,8 @@ std::string criteria_table(const CriteriaSummary& summary, const CriteriaLimits&
     if (!std::isnan(limits.values[i]))
       text += fmt::format("{:<16} {:>8g} {}\n", info.name, limits.values[i], share(summary.failing_by[i]));
   }
-  text += fmt::format("{:<25} {}\n{:<25} {}\n", "any", share(summary.failing), "any but warp",
-                      share(summary.failing_but_warp));
+  text += fmt::format("{:<25} {}\n{:<25} {}\n", "any", share(summary.failing), "outside: but warp, size",
+                      share(summary.outside));
   for (const std::string& name : limits.not_measured) text += fmt::format("not measured: {}\n", name);
   if (summary.failing == 0) return text;
   text += "\nface          quads  failing\n";

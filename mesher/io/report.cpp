@@ -46,8 +46,8 @@ json criteria_to_json(const CriteriaSummary& summary, const CriteriaLimits& limi
   json result{{"quads", summary.quads},
               {"failing", summary.failing},
               {"failing_percent", percent(summary.failing)},
-              {"failing_but_warp", summary.failing_but_warp},
-              {"failing_but_warp_percent", percent(summary.failing_but_warp)},
+              {"outside", summary.outside},
+              {"outside_percent", percent(summary.outside)},
               {"by_criterion", json::object()},
               {"by_face", json::object()},
               {"worst", json::array()}};
@@ -186,13 +186,21 @@ json filled_holes_to_json(const ShellMesh& mesh) {
 }
 
 json poor_quads_to_json(const ShellMesh& mesh) {
+  constexpr std::array<const char*, 4> names{"short edge", "sharp corner", "narrow", "none"};
   json entities = json::array();
   for (const ShellMesh::PoorQuads& found : mesh.poor_quads)
     entities.push_back({{"name", (found.dimension == 2 ? "Face" : "Edge") + std::to_string(found.number)},
                         {"quads", found.quads},
                         {"shortest", found.shortest},
+                        {"cause", names[static_cast<std::size_t>(found.cause)]},
                         {"why", found.why}});
   return entities;
+}
+
+/// Numbers of elements, from 1.
+json elements_to_json(std::vector<int> indices) {
+  for (int& index : indices) ++index;
+  return indices;
 }
 
 json kept_to_json(const ShellMesh& mesh) {
@@ -226,13 +234,14 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"peak_bytes", usage.peak_bytes},
           {"faces", faces_to_json(mesh)},
           {"off_geometry", off_geometry_to_json(mesh)},
-          {"let_go", suppressed_to_json(mesh)},
+          {"suppressed_features", suppressed_to_json(mesh)},
           {"kept", kept_to_json(mesh)},
           {"filled_holes", filled_holes_to_json(mesh)},
-          {"suppressed_edges", crossed_to_json(mesh)},
+          {"crossed_edges", crossed_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
           {"matches", matches_to_json(mesh)},
           {"poor_quads", poor_quads_to_json(mesh)},
+          {"finer_quads", elements_to_json(mesh.finer_quads)},
           {"warnings", warnings},
           {"versions",
            {{"quadrille", QUADRILLE_VERSION},

@@ -146,18 +146,20 @@ CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limi
     const int number = mesh.quad_faces.empty() ? 0 : mesh.quad_faces[i];
     auto& face = faces[number];
     ++face.quads;
-    bool any = false, but_warp = false;
+    const bool is_finer =
+        std::binary_search(mesh.finer_quads.begin(), mesh.finer_quads.end(), static_cast<int>(i));
+    bool any = false, outside = false;
     for (std::size_t k = 0; k < criterion_count; ++k) {
       const auto criterion = static_cast<Criterion>(k);
-      if (!limits.fails(criterion, values[k])) continue;
+      if (!limits.fails(criterion, values[k]) || (is_finer && criterion == Criterion::min_length)) continue;
       ++summary.failing_by[k];
       any = true;
-      but_warp = but_warp || criterion != Criterion::warp;
+      outside = outside || is_of_shape(criterion);
     }
     if (!any) continue;
     ++face.failing;
     ++summary.failing;
-    summary.failing_but_warp += but_warp;
+    summary.outside += outside;
     const Worst worst = worst_of(values, limits);
     failing.push_back({worst.severity,
                        {static_cast<int>(i), number, (pa + pb + pc + pd) / 4, worst.criterion,

@@ -75,6 +75,11 @@ struct QUADRILLE_API CriteriaLimits {
   }
 };
 
+/// Whether a quad that fails the criterion is outside the limits, see CriteriaSummary::outside.
+constexpr bool is_of_shape(Criterion criterion) {
+  return criterion != Criterion::warp && criterion != Criterion::min_length;
+}
+
 /// The usual limits, with half the least size that the mesh was made with as the least length of a side.
 QUADRILLE_API CriteriaLimits limits_of(const ShellMesh& mesh);
 
@@ -98,14 +103,17 @@ struct CriteriaSummary {
     Criterion criterion = Criterion::aspect;  ///< criterion with the largest severity
     double value = 0;                         ///< value of that criterion
   };
-  int quads = 0;             ///< number of quads in the mesh
-  int failing = 0;           ///< quads that fail any criterion
-  int failing_but_warp = 0;  ///< quads that fail any criterion but warp, which curved surfaces force
+  int quads = 0;    ///< number of quads in the mesh
+  int failing = 0;  ///< quads that fail any criterion
+  /// Quads that fail a criterion of shape: any but warp, which curved surfaces force, and the shortest side,
+  /// which is one of size. This is what "outside" means everywhere; the other two are counted apart.
+  int outside = 0;
   std::array<int, criterion_count> failing_by{};  ///< quads that fail each criterion, indexed by Criterion
   std::vector<Face> faces;                        ///< faces with failing quads, ascending by number
   std::vector<Quad> worst;                        ///< the worst of the failing quads, worst first
 };
 
+/// Sides in ShellMesh::finer_quads are as short as the user asked for and do not fail.
 /// \param worst_count largest number of quads in `worst`. Complexity: linear in the mesh.
 QUADRILLE_API CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limits = {},
                                              int worst_count = 10);

@@ -130,11 +130,19 @@ struct ShellMesh {
 
   /// The quads outside the usual limits that one CAD edge, or one reason on a CAD face, forces.
   struct PoorQuads {
-    int dimension = 2;    ///< 1: edge, 2: face
-    int number = 0;       ///< its number, from 1
-    int quads = 0;        ///< number of quads
-    double shortest = 0;  ///< shortest side of these, millimeters
-    std::string why;      ///< what is small or sharp there
+    /// What forces them.
+    enum class Cause {
+      short_edge,  ///< the edge is short
+      corner,      ///< two edges of the face meet at a sharp angle
+      narrow,      ///< the face is narrow
+      none         ///< nothing there is too small or sharp
+    };
+    Cause cause = Cause::none;  ///< what forces them
+    int dimension = 2;          ///< 1: edge, 2: face
+    int number = 0;             ///< its number, from 1
+    int quads = 0;              ///< number of quads
+    double shortest = 0;        ///< shortest side of these, millimeters
+    std::string why;            ///< what is small or sharp there
   };
 
   /// A set of entities that has a name or a number of its own in the file that the mesh was read from.
@@ -170,6 +178,7 @@ struct ShellMesh {
   };
 
   double size_min = 0;                    ///< least size of the mesh by its sizes, millimeters; 0 = not known
+  std::vector<int> finer_quads;           ///< quads, ascending, where the user asks for sizes below size_min
   int order = 1;                          ///< 1: four-node quads; 2: eight-node (serendipity) quads
   std::vector<Vector3> points;            ///< (n) all nodes, corner nodes first, then midside nodes
   std::vector<std::array<int, 4>> quads;  ///< (m) corner nodes, counter-clockwise seen from outside

@@ -55,7 +55,7 @@ class Finder {
   struct PoorQuad {
     int quad, side;  // its shortest
   };
-  enum class Reason { short_edge, corner, narrow, none };
+  using Reason = ShellMesh::PoorQuads::Cause;
   /// What forces quads: an edge, or a face and why; of a corner the node.
   using Place = std::tuple<int, int, Reason, int>;  // dimension, number
   /// The edges at the ends of a row across a face, and how far they are apart.
@@ -86,10 +86,12 @@ class Finder {
   bool is_poor(int quad) const {
     const auto& x = mesh_.points;
     const auto& [a, b, c, d] = mesh_.quads[quad];
+    const bool is_finer = std::binary_search(mesh_.finer_quads.begin(), mesh_.finer_quads.end(), quad);
     const CriteriaValues values = measure_criteria(x[a], x[b], x[c], x[d]);
     for (std::size_t i = 0; i < criterion_count; ++i) {
       const auto criterion = static_cast<Criterion>(i);
-      if (criterion != Criterion::warp && limits_.fails(criterion, values[i])) return true;
+      if (!is_of_shape(criterion) && (criterion == Criterion::warp || is_finer)) continue;
+      if (limits_.fails(criterion, values[i])) return true;
     }
     return false;
   }
@@ -164,6 +166,7 @@ class Finder {
     found.shortest = found.quads == 0 ? length : std::min(found.shortest, length);
     found.dimension = std::get<0>(place);
     found.number = std::get<1>(place);
+    found.cause = std::get<2>(place);
     ++found.quads;
   }
 
@@ -214,7 +217,7 @@ class Finder {
       case Reason::none:
         break;
     }
-    return "nothing there is too small or sharp: rows of quads end there, or continue from a neighbor";
+    return "no edge or angle there is too small; the mesh itself is irregular there";
   }
 
   const CadShape& shape_;

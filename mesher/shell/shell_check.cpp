@@ -24,9 +24,15 @@ namespace {
 class ShellCheck {
  public:
   ShellCheck(const CadShape& shape, const FaceFlags& requested, const ShellMesh& mesh)
-      : shape_(shape), mesh_(mesh), counted_(requested), faces_at_(shape.edges.size(), 0) {
+      : shape_(shape),
+        mesh_(mesh),
+        counted_(requested),
+        faces_at_(shape.edges.size(), 0),
+        reach_(mesh.size_min) {
     for (const ShellMesh::Face& face : mesh.faces)
       if (face.status == FaceStatus::failed) counted_[FaceId::from_number(face.face)] = 0;
+    for (const double tolerance : shape.vertex_tolerances) reach_ = std::max(reach_, tolerance);
+    for (const auto& feature : mesh.suppressed_features) reach_ = std::max(reach_, feature.distance);
     for (const EdgeId id : shape.edges.ids()) {
       const auto& faces = shape.edges[id].faces;
       faces_at_[id] = static_cast<int>(
@@ -112,15 +118,15 @@ class ShellCheck {
   }
 
   /// Whether the CAD edges along a side allow so many quads there: where narrow parts are left out, the nodes
-  /// of one edge stand for others, no farther away than the least size.
+  /// of one edge stand for others, no farther away than the reach.
   bool is_explained(std::size_t quads, const Vector3& a, const Vector3& b) {
-    constexpr double share = 0.25;  // of the side's length
-    const double length = (b - a).norm(), reach = std::max(share * length, mesh_.size_min);
+    constexpr double sag = 0.25;  // of the side's length
+    const double length = (b - a).norm();
     int along = 0;
     for (const auto& [line, faces] : lines()) {
       if (quads == 1 ? faces != 1 : faces == 0) continue;
-      const bool is_along = distance_to(line, a) <= reach && distance_to(line, b) <= reach &&
-                            distance_to(line, 0.5 * (a + b)) <= reach + share * length;
+      const bool is_along = distance_to(line, a) <= reach_ && distance_to(line, b) <= reach_ &&
+                            distance_to(line, 0.5 * (a + b)) <= reach_ + sag * length;
       if (is_along) along += faces;
     }
     return along >= static_cast<int>(quads);
@@ -173,6 +179,7 @@ class ShellCheck {
   const ShellMesh& mesh_;
   FaceFlags counted_;               ///< 1 = requested, and not failed
   IdVector<EdgeId, int> faces_at_;  ///< how many of the counted faces are at each edge
+  double reach_;                    ///< how far nodes may lie from the edges that they stand for
   std::vector<Line> lines_;         ///< of all edges, once they are needed
   std::vector<std::string> defects_;
 };

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <unordered_map>
@@ -102,6 +103,27 @@ SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
     std::copy_if(quad.begin(), quad.end(), std::back_inserter(ratios),
                  [](double ratio) { return ratio >= 0; });
   return summary(std::move(ratios));
+}
+
+std::vector<int> finer_quads(const ShellMesh& mesh, const SizingField& field) {
+  std::vector<int> result;
+  std::optional<SizingField::Sampler> size_at;
+  int face = 0;
+  for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
+    double shortest = std::numeric_limits<double>::infinity();
+    Vector3 middle;
+    for (int k = 0; k < 4; ++k) {
+      const Vector3 &p = mesh.points[mesh.quads[quad][k]], &q = mesh.points[mesh.quads[quad][(k + 1) % 4]];
+      if (!((q - p).norm() < shortest)) continue;
+      shortest = (q - p).norm();
+      middle = 0.5 * (p + q);
+    }
+    if (!(shortest < 0.5 * mesh.size_min)) continue;
+    if (!size_at || face != mesh.quad_faces[quad])
+      size_at.emplace(field, FaceId::from_number(face = mesh.quad_faces[quad]));
+    if ((*size_at)(middle) < mesh.size_min) result.push_back(static_cast<int>(quad));
+  }
+  return result;
 }
 
 }  // namespace quadrille

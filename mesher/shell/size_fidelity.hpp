@@ -30,4 +30,8 @@ struct SizeFidelity {
 /// Time: linear in the sides, with one lookup in the field for each.
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field);
 
+/// The quads, ascending, with a side under half of ShellMesh::size_min where sizes below it are wanted, as
+/// beside edges and faces that users give smaller sizes, segments or layers. One lookup for each.
+std::vector<int> finer_quads(const ShellMesh& mesh, const SizingField& field);
+
 }  // namespace quadrille

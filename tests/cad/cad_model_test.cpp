@@ -9,12 +9,16 @@
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRep_Builder.hxx>
+#include <Geom_Curve.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -147,6 +151,30 @@ TEST(CadModel, WiresThatTouchThemselvesAreReadTheSameWhereverTheyLieInMemory) {
   ::setenv("CSF_STEPDefaults", (folder / ".").c_str(), 1);
   expect_the_same_in_each_reading(folder / "slit.step");
   ::unsetenv("CSF_STEPDefaults");
+}
+
+/// A square of 4 by 4 whose first edge has no curve in space.
+TopoDS_Face without_spatial_curve(bool marked) {
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), 0, 4, 0, 4).Face();
+  const TopoDS_Edge edge = TopoDS::Edge(TopExp_Explorer(face, TopAbs_EDGE).Current());
+  const BRep_Builder builder;
+  builder.UpdateEdge(edge, Handle(Geom_Curve)(), 1e-7);
+  builder.Degenerated(edge, marked);
+  return face;
+}
+
+TEST(CadModel, EdgesWithoutCurvesInSpaceGetThem) {
+  for (const bool marked : {false, true}) {
+    const CadModel model(std::make_shared<CadShape>(without_spatial_curve(marked), "square"));
+    double length = 0;
+    for (const CadEdge& edge : model.shape().edges) {
+      EXPECT_FALSE(edge.degenerate);
+      length += edge.length;
+    }
+    EXPECT_NEAR(length, 16, 1e-9) << (marked ? "marked as a point" : "");
+    ASSERT_EQ(model.shape().problems.size(), 1U);
+    EXPECT_NE(model.shape().problems[0].find("Face1 lacked spatial curves"), std::string::npos);
+  }
 }
 
 }  // namespace

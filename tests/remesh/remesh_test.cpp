@@ -513,6 +513,43 @@ TEST(Remesh, RefusesFoilsWhoseEdgesAreSuppressed) {
   expect_error(box({100, 100, 1e-3}), options, Error::Kind::failure, "stay inverted");
 }
 
+TEST(Remesh, NeedlesAskForNoSizesAsSmall) {
+  // A box with a needle along each rim of its top: rims a billionth long at the ends.
+  constexpr double width = 1e-9;
+  ShellMesh needles = box({3, 3, 3});
+  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
+    const int first = static_cast<int>(needles.points.size());
+    needles.points.insert(needles.points.end(), {a, b, c});
+    needles.triangles.push_back({first, first + 1, first + 2});
+    needles.triangle_faces.push_back(0);
+  };
+  for (Vector3& p : needles.points)
+    if (p.z() > 0) p.z() -= width;
+  const std::array<Vector3, 4> low{Vector3(0, 0, 3 - width), Vector3(3, 0, 3 - width),
+                                   Vector3(3, 3, 3 - width), Vector3(0, 3, 3 - width)};
+  // The lid is lifted, and the slit closed by needles.
+  std::erase_if(needles.triangles, [&](const std::array<int, 3>& t) {
+    return needles.points[t[0]].z() > 2 && needles.points[t[1]].z() > 2 && needles.points[t[2]].z() > 2;
+  });
+  needles.triangle_faces.resize(needles.triangles.size());
+  const auto high = [&](int k) { return Vector3(low[k].x(), low[k].y(), 3); };
+  for (int k = 0; k < 4; ++k) {
+    const int next = (k + 1) % 4;
+    add(low[k], low[next], high(next));
+    add(low[k], high(next), high(k));
+  }
+  add(high(0), high(1), high(2));
+  add(high(0), high(2), high(3));
+  RemeshOptions options = with_size(1);
+  options.merge = 0;
+  ExecutionContext context(1);
+  context.limit_time(20);
+  std::vector<std::string> notes;
+  const ShellMesh mesh = remesh(needles, options, nullptr, notes, context);
+  EXPECT_LT(mesh.quads.size(), 300U);
+  EXPECT_EQ(quality(mesh).inverted, 0);
+}
+
 TEST(Remesh, CanBeCancelledAndLimited) {
   const ShellMesh input = sphere(10, 40);
   for (const int stop_at : {2, 6, 12}) {

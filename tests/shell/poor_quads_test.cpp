@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/support/sheet.hpp"
 
@@ -23,8 +24,11 @@ ShellMesh meshed(const CadModel& model, double size, double least) {
   return mesh(model, options, context);
 }
 
+/// Quads that fail any criterion but warp.
 int failing(const ShellMesh& mesh) {
-  return check_criteria(mesh, limits_of(mesh)).failing_but_warp;
+  CriteriaLimits limits = limits_of(mesh);
+  limits.values[static_cast<std::size_t>(Criterion::warp)] = unchecked;
+  return check_criteria(mesh, limits).failing;
 }
 
 int quads_of(const ShellMesh& mesh) {
@@ -112,6 +116,34 @@ TEST(SmallFeatures, FollowTheReach) {
   EXPECT_TRUE(found(0.1, false).suppressed_features.empty());
   EXPECT_FALSE(found(0.3, false).suppressed_features.empty());
   EXPECT_TRUE(found(0, true).suppressed_features.empty());
+}
+
+TEST(PoorQuads, ASettingOnOneEdgeChangesNothingElsewhere) {
+  // The notch of the first test, and far from it an edge with ten segments.
+  const CadModel model =
+      sheet({{{0, 0}, {20, 0}, {20, 20}, {10.8, 20}, {10.8, 14}, {10, 14}, {10, 20}, {0, 20}},
+             {{100, 0}, {120, 0}, {120, 20}, {100, 20}}});
+  const auto at_notch = [&](const MeshOptions& options) {
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(model, options, context);
+    int quads = 0;
+    for (const auto& found : mesh.poor_quads) quads += found.quads;
+    return quads;
+  };
+  MeshOptions options;
+  options.sizing.size = 4;
+  options.sizing.size_min = 1;
+  const int before = at_notch(options);
+  ASSERT_GT(before, 0);
+  int far = 0;
+  for (const CadEdge& edge : model.shape().edges)
+    if (model.shape().vertices[edge.first_vertex].x() > 90) far = edge.number;
+  ASSERT_GT(far, 0);
+  options.sizing.spacings[far].segments = 40;  // each 0.5 long: no shorter than asked for
+  EXPECT_EQ(at_notch(options), before);
+  options.sizing.spacings.clear();
+  options.sizing.edge_sizes[far] = 0.25;
+  EXPECT_EQ(at_notch(options), before);
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ def _record(task: Task, status: str, reason: str = "", **numbers: Any) -> Dict[s
 def _measures(report: Dict[str, Any]) -> Dict[str, Any]:
     quality = report["quality"]
     return {"quads": report["counts"]["quads"], "q_mean": quality["q_mean"], "q_min": quality["q_min"],
-            "outside_percent": report["criteria"]["failing_percent"]}
+            "outside_percent": report["criteria"]["outside_percent"]}
 
 
 def write_whole(target: Path, text: str) -> None:

@@ -212,8 +212,8 @@
         <translation>Irreguläre Knoten</translation>
     </message>
     <message>
-        <source>Outside limits</source>
-        <translation>Außer Grenzen</translation>
+        <source>Outside limits, without warp and short sides</source>
+        <translation>Außerhalb, ohne Verwindung, kurze Seiten</translation>
     </message>
     <message>
         <source>Mesher&apos;s time</source>
@@ -560,7 +560,7 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Spannungen kommen nur aus der Mitte der Schale: Spannungen an der Oberfläche</translation>
     </message>
     <message>
-        <source>Edges and faces whose quads are outside the limits: {}</source>
+        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
         <translation>Kanten und Flächen mit Vierecken außerhalb der Grenzen: {}</translation>
     </message>
     <message>

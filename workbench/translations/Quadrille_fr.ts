@@ -212,8 +212,8 @@
         <translation>Nœuds irréguliers</translation>
     </message>
     <message>
-        <source>Outside limits</source>
-        <translation>Hors limites</translation>
+        <source>Outside limits, without warp and short sides</source>
+        <translation>Hors limites, sans gauchissement ni côtés courts</translation>
     </message>
     <message>
         <source>Mesher&apos;s time</source>
@@ -560,7 +560,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>les contraintes viennent du seul milieu de la coque : Contraintes en surface</translation>
     </message>
     <message>
-        <source>Edges and faces whose quads are outside the limits: {}</source>
+        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
         <translation>Arêtes et faces dont des quadrangles sont hors limites : {}</translation>
     </message>
     <message>

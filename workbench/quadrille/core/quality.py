@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The quality of each quad of a FEM mesh, computed with NumPy. Runs inside FreeCAD."""
 
-from typing import Dict, NamedTuple, Tuple
+from typing import Dict, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -86,8 +86,9 @@ class ElementQuality(NamedTuple):
         return np.argsort(values, kind="stable")[:count]
 
 
-def measure(fem_mesh, least_size: float = 0.0) -> ElementQuality:
-    """Measures the quads of a FEM mesh by their corners; midside nodes are ignored. least_size: see limits()."""
+def measure(fem_mesh, least_size: float = 0.0, finer: Sequence[int] = ()) -> ElementQuality:
+    """Measures the quads of a FEM mesh by their corners; midside nodes are ignored. least_size: see limits(). finer: numbers,
+    from 1, of the quads whose sides may be shorter, as the user asked."""
     numbers, places = nodes_of(fem_mesh)
     points = np.zeros((max(numbers, default=0) + 1, 3))
     points[numbers] = places
@@ -95,7 +96,10 @@ def measure(fem_mesh, least_size: float = 0.0) -> ElementQuality:
     quads = np.isin(sizes, (4, 8))
     starts = (np.cumsum(sizes) - sizes)[quads]
     corners = flat[starts[:, None] + np.arange(4)]
-    return measure_quads(ids[quads], corners, points[corners], least_size)
+    measured = measure_quads(ids[quads], corners, points[corners], least_size)
+    places = np.asarray(finer, int) - 1
+    measured.criteria["min_length"][places[places < len(measured.ids)]] = np.inf
+    return measured
 
 
 def measure_quads(ids: np.ndarray, nodes: np.ndarray, corners: np.ndarray, least_size: float = 0.0) -> ElementQuality:

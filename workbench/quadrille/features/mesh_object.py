@@ -271,12 +271,14 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "MeanJacobian", "Result", "Mean scaled Jacobian"),
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
-    ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the industry limits, percent"),
+    ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the industry limits, percent, without warp and short sides"),
     ("App::PropertyStringList", "FilledHoles", "Result", "Holes, pockets and bosses that are left out, with the faces they lie in"),
     ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
     ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each of these edges, as many on each"),
-    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces whose quads are outside the industry limits, and why"),
-    ("App::PropertyFloat", "LeastSize", "Result", "Minimum size of the mesh, mm; sides under half of it count as outside"),
+    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces whose quads are outside the industry limits or have short sides, and why"),
+    ("App::PropertyStringList", "PoorCauses", "Hidden", "The cause of each entry of PoorQuads, as in reports"),
+    ("App::PropertyIntegerList", "FinerQuads", "Hidden", "Numbers of the quads whose sides may be short, as asked for"),
+    ("App::PropertyFloat", "LeastSize", "Result", "Minimum size of the mesh, mm; sides under half of it count as short"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
     ("App::PropertyFloatList", "MeshedShape", "Hidden", "Measures of the part when it was meshed"),
     ("App::PropertyString", "MeshedSettings", "Hidden", "Settings that the mesh was made with"),
@@ -450,11 +452,13 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.LargestAspect = quality.get("aspect_max", 0.0)
     mesh.IrregularPercent = quality.get("irregular_percent", 0.0)
     criteria = report.get("criteria", {})
-    mesh.OutsidePercent = criteria.get("failing_percent", 0.0)
+    mesh.OutsidePercent = criteria.get("outside_percent", 0.0)
     shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
     mesh.LeastSize = 2 * shortest if shortest else 0.0
-    mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("suppressed_edges", ())]
-    mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("suppressed_edges", ()) for point in edge["line"]]
+    mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("crossed_edges", ())]
+    mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("crossed_edges", ()) for point in edge["line"]]
     mesh.FilledHoles = [f"{hole['kind']} {hole['diameter']:.4g} ({', '.join(hole['in'])})" for hole in report.get("filled_holes", ())]
     mesh.PoorQuads = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("poor_quads", ())]
+    mesh.PoorCauses = [found["cause"] for found in report.get("poor_quads", ())]
+    mesh.FinerQuads = report.get("finer_quads", [])
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -58,19 +58,19 @@ class ElementView(QtGui.QWidget):
             if all(part_groups.edge_along(nodes[corner], nodes[(corner + step) % 4]) for step in (1, 3)):
                 return vertex
         if any(measured.fails(name)[index] for name in measured.limits if name != "warp"):
-            forcing = {name for name, why in self._poor() if not why.startswith("nothing")}
+            forcing = {name for name, cause in self._poor() if cause != "none"}
             for start in range(4):
                 edge = part_groups.edge_along(nodes[start], nodes[(start + 1) % 4]) if forcing else ""
                 if edge in forcing:
                     return edge
             face = self.face_of(index)
-            if any(name == face and why.startswith("Edge") for name, why in self._poor()):
+            if (face, "narrow") in self._poor():
                 return face
         return ""
 
     def _poor(self):
-        """The edges and faces whose quads are outside the limits, and why."""
-        return [(entry.split(":")[0], entry.partition(", ")[2]) for entry in self._mesh.PoorQuads]
+        """The edges and faces whose quads are outside the limits, and the cause."""
+        return [(entry.split(":")[0], cause) for entry, cause in zip(self._mesh.PoorQuads, self._mesh.PoorCauses)]
 
     def show_element(self, index: int) -> None:
         """Describes an element, by its index in the measures."""

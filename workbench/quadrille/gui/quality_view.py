@@ -128,7 +128,7 @@ class QualityWidget(QtGui.QWidget):
     def measured(self) -> quality.ElementQuality:
         """The quality of each element, measured at the first call."""
         if self._measured is None:
-            self._measured = quality.measure(self.mesh.FemMesh, self.mesh.LeastSize)
+            self._measured = quality.measure(self.mesh.FemMesh, self.mesh.LeastSize, self.mesh.FinerQuads)
         return self._measured
 
     def _fill_table(self) -> None:
@@ -139,7 +139,7 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
             (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
             (translate("Quadrille", "Irregular nodes"), f"{digits(round(mesh.IrregularPercent, 2))} %"),
-            (translate("Quadrille", "Outside limits"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
+            (translate("Quadrille", "Outside limits, without warp and short sides"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
             (translate("Quadrille", "Mesher's time"), f"{digits(round(mesh.Seconds, 2))} s"),
         ))
         self.show_status(mesh.Status)
@@ -157,7 +157,7 @@ class QualityWidget(QtGui.QWidget):
                            "Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed")),
                 (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
                 (self.poor, self.mesh.PoorQuads,
-                 translate("Quadrille", "Edges and faces whose quads are outside the limits: {}"))):
+                 translate("Quadrille", "Edges and faces whose quads are outside the limits or have short sides: {}"))):
             label.setText(text.format(len(entries)))
             label.setToolTip("\n".join(entries))
             label.setVisible(bool(entries))
