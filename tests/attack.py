@@ -64,7 +64,7 @@ class Run:
         before = set(os.listdir(self.folder))
         # A pipe: limits on the size of files do not hold for it.
         process = subprocess.Popen(
-            [*self.prefix, quadrille, *map(str, self.arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+            [*self._as_user(), *self.prefix, quadrille, *map(str, self.arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, env={**os.environ, **self.environment},
             start_new_session=True, preexec_fn=self._prepare)
         said = []
@@ -82,10 +82,14 @@ class Run:
             resource.setrlimit(limit, values)
         for descriptor in self.closed:
             os.close(descriptor)
-        if self.as_nobody and os.geteuid() == 0:
-            os.setgroups([])
-            os.setgid(self.user)
-            os.setuid(self.user)
+
+    def _as_user(self):
+        """Limits on processes do not hold for root, who becomes another user that may read what root may."""
+        if not self.as_nobody or os.geteuid() != 0:
+            return []
+        kept = "-all,+dac_override"
+        return ["setpriv", f"--reuid={self.user}", f"--regid={self.user}", "--clear-groups", f"--inh-caps={kept}",
+                f"--ambient-caps={kept}"]
 
     def _wait(self, process):
         start, sent = time.monotonic(), False

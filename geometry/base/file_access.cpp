@@ -1,7 +1,8 @@
-/// Asks access(2) about a file, or about the folder that a file is to be written to.
+/// Asks faccessat(2), as the kernel will judge this process, about a file, or about the folder that a file is to be written to.
 
 #include "geometry/base/file_access.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,7 +13,7 @@ namespace quadrille {
 namespace {
 
 std::string why_not(const std::filesystem::path& path, int mode) {
-  return ::access(path.c_str(), mode) == 0 ? std::string() : std::strerror(errno);
+  return ::faccessat(AT_FDCWD, path.c_str(), mode, AT_EACCESS) == 0 ? std::string() : std::strerror(errno);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,13 +75,19 @@ TEST(ShellCheck, AMissingQuadLeavesOpenSides) {
 }
 
 TEST(ShellCheck, AGapBesideAFreeEdgeIsNoFreeEdge) {
-  // Quads inside a sheet are far from its rim, those at the rim are not: their inner sides must count too.
+  // Quads inside a sheet are far from its rim, those at the rim are not: their inner sides must count too. A
+  // quad with all its nodes on rims is left out: what is left without it is a mesh of a coarser rim.
   Meshed sheet("plate_with_holes");
   const ShellMesh whole = sheet.shell;
+  std::set<int> on_rim;
+  for (const auto& segment : whole.segments) on_rim.insert(segment.nodes.begin(), segment.nodes.end());
   for (std::size_t quad = 0; quad < whole.quads.size(); ++quad) {
+    const auto& corners = whole.quads[quad];
+    if (std::all_of(corners.begin(), corners.end(), [&](int node) { return on_rim.contains(node); }))
+      continue;
     sheet.shell = whole;
     sheet.drop([&](std::size_t i) { return i == quad; });
-    EXPECT_NE(sheet.defects().find("not as tight"), std::string::npos) << quad;
+    EXPECT_NE(sheet.defects().find("not as tight"), std::string::npos) << quad << " at " << whole.points[corners[0]].transpose() << ", " << whole.points[corners[1]].transpose() << ", " << whole.points[corners[2]].transpose() << ", " << whole.points[corners[3]].transpose();
   }
 }
 
