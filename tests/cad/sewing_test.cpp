@@ -24,7 +24,7 @@ TopoDS_Shape square(double x) {
 TEST(Sewing, TurnsTheFewerFaces) {
   const Sewn sewn = sew(compound({square(0), square(10).Reversed(), square(20)}), 1e-3);
   EXPECT_EQ(sewn.joined, 2);
-  EXPECT_EQ(sewn.turned, std::vector<int>{2});
+  EXPECT_EQ(sewn.orientation.turned, std::vector<int>{2});
   const CadShape shape(sewn.shape, "squares");
   for (const CadFace& face : shape.faces) EXPECT_FALSE(face.reversed);
 }
@@ -34,7 +34,7 @@ TEST(Sewing, LeavesFacesOfSolidsAsTheyAre) {
                                   BRepPrimAPI_MakeBox(gp_Pnt(10, 10, 0), gp_Pnt(20, 20, 10)).Shape()}),
                         1e-3);
   EXPECT_EQ(sewn.joined, 1);
-  EXPECT_TRUE(sewn.turned.empty());
+  EXPECT_TRUE(sewn.orientation.turned.empty());
   EXPECT_TRUE(sewn.coincident.empty());
 }
 
