@@ -213,9 +213,11 @@ CadModel CadModel::sewn(double tolerance) const {
     const Sewn made = sew(shape_->shape, tolerance);
     if (!made.coincident.empty()) {
       const auto [first, second] = made.coincident.front();
-      throw failure(name, fmt::format("Face{} and Face{} coincide, {} such pair(s) in all: use `imprint` to "
-                                      "join parts that touch; sewing joins edges only",
-                                      first, second, made.coincident.size()));
+      const char* remedy = shape_->face_pieces.empty()
+                               ? "use `imprint` to join parts that touch; sewing joins edges only"
+                               : "they are within the tolerance of `sew` after `imprint`; try a smaller one";
+      throw failure(name, fmt::format("Face{} and Face{} coincide, {} such pair(s) in all: {}", first, second,
+                                      made.coincident.size(), remedy));
     }
     auto result = std::make_shared<CadShape>(made.shape, name);
     if (result->faces.size() != shape_->faces.size()) {

@@ -225,18 +225,24 @@ class Numbering {
   TopTools_MapOfShape taken_;
 };
 
+TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  const BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  return compound;
+}
+
 /// The solids after the fuse, each once. Shells have no images of their own: their faces have.
 TopoDS_Compound solids_of(Fuse& fuse) {
-  const BRep_Builder builder;
-  TopoDS_Compound solids;
-  builder.MakeCompound(solids);
+  std::vector<TopoDS_Shape> solids;
   TopTools_MapOfShape added;
   for (const TopoDS_Shape& part : fuse.parts()) {
     if (part.ShapeType() != TopAbs_SOLID) continue;
     for (const TopoDS_Shape& image : fuse.images_of(part))
-      if (added.Add(image)) builder.Add(solids, image);
+      if (added.Add(image)) solids.push_back(image);
   }
-  return solids;
+  return compound_of(solids);
 }
 
 }  // namespace
@@ -268,19 +274,12 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   if (numbers.Extent() != static_cast<int>(numbering.faces().size()))
     throw Standard_Failure("faces appear that are not pieces of the model's faces");
   Imprint result;
-  result.orientation = orient_alike(numbering.faces(), faces_in_solids(solids, numbers), pieces);
-
+  result.pieces = numbers_of_pieces(fuse, shape, compound_of(numbering.faces()), TopAbs_FACE);
+  result.orientation = orient_alike(numbering.faces(), faces_in_solids(solids, numbers), result.pieces);
   // Faces are numbered in the order in which they are met. So they come first, before the solids made of
   // them.
-  const BRep_Builder builder;
-  TopoDS_Compound all, skin;
-  builder.MakeCompound(all);
-  builder.MakeCompound(skin);
-  for (const TopoDS_Shape& face : numbering.faces()) builder.Add(skin, face);
-  builder.Add(all, skin);
-  builder.Add(all, solids);
+  const TopoDS_Compound all = compound_of({compound_of(numbering.faces()), solids});
   result.shape = all;
-  result.pieces = numbers_of_pieces(fuse, shape, all, TopAbs_FACE);
   result.edge_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_EDGE);
   result.vertex_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_VERTEX);
   return result;

@@ -19,7 +19,6 @@ class Turning {
     for (const TopoDS_Shape& face : faces) TopExp::MapShapes(face, TopAbs_EDGE, edges);
     uses_.resize(edges.Extent() + 1);
     for (int face = 0; face < static_cast<int>(faces.size()); ++face) {
-      numbers_.Add(faces[face]);
       if (fixed_[face]) continue;
       for (TopExp_Explorer it(faces[face], TopAbs_EDGE); it.More(); it.Next()) {
         const bool forward = it.Current().Orientation() == TopAbs_FORWARD;
@@ -31,14 +30,11 @@ class Turning {
       if (uses.size() == 2) link(uses[0].face, uses[1].face, uses[0].forward != uses[1].forward);
   }
 
-  /// Pieces of one face go on as it did where other faces meet them.
-  void link(const std::vector<TopoDS_Shape>& pieces) {
-    const auto turned = [&](const TopoDS_Shape& piece) {
-      return piece.Orientation() != faces_[numbers_.FindIndex(piece) - 1].Orientation();
-    };
-    for (std::size_t i = 1; i < pieces.size(); ++i)
-      link(numbers_.FindIndex(pieces[0]) - 1, numbers_.FindIndex(pieces[i]) - 1,
-           turned(pieces[0]) == turned(pieces[i]));
+  /// Adds that two faces are alike, or opposite.
+  void link(int face, int other, bool alike) {
+    if (face == other || fixed_[face] || fixed_[other]) return;
+    links_[face].push_back({other, alike});
+    links_[other].push_back({face, alike});
   }
 
   Orientation run() {
@@ -76,12 +72,6 @@ class Turning {
     bool alike;
   };
 
-  void link(int face, int other, bool alike) {
-    if (face == other || fixed_[face] || fixed_[other]) return;
-    links_[face].push_back({other, alike});
-    links_[other].push_back({face, alike});
-  }
-
   /// Adds the neighbors of a face to its piece, with their orientations.
   void visit(int face, std::vector<int>& piece, std::map<int, bool>& opposite, bool& one_sided) const {
     for (const auto& [other, alike] : links_[face]) {
@@ -101,7 +91,6 @@ class Turning {
 
   std::vector<TopoDS_Shape>& faces_;
   const std::vector<char>& fixed_;
-  TopTools_IndexedMapOfShape numbers_;
   std::vector<std::vector<Use>> uses_;  // by edge
   std::vector<std::vector<Link>> links_;
 };
@@ -117,9 +106,19 @@ std::vector<char> faces_in_solids(const TopoDS_Shape& shape, const TopTools_Inde
 }
 
 Orientation orient_alike(std::vector<TopoDS_Shape>& faces, const std::vector<char>& fixed,
-                         const std::vector<std::vector<TopoDS_Shape>>& of_one_face) {
+                         const std::vector<std::vector<int>>& pieces) {
   Turning turning(faces, fixed);
-  for (const std::vector<TopoDS_Shape>& pieces : of_one_face) turning.link(pieces);
+  std::vector<int> sources(faces.size() + 1, 0);
+  for (const std::vector<int>& own : pieces)
+    for (const int piece : own) ++sources[piece];
+  for (const std::vector<int>& own : pieces) {
+    int before = 0;
+    for (const int piece : own) {
+      if (sources[piece] > 1) continue;
+      if (before > 0) turning.link(before - 1, piece - 1, true);
+      before = piece;
+    }
+  }
   return turning.run();
 }
 

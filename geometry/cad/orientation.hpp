@@ -19,10 +19,10 @@ struct Orientation {
 std::vector<char> faces_in_solids(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& faces);
 
 /// Orients faces alike within each connected piece by reversing the fewer of them, unless the piece is
-/// one-sided. Faces connect at edges that two of them share, and as pieces of one face. Edges are numbered in
-/// the order in which the faces have them. \param fixed by face: left alone, as if it were not there.
-/// \param of_one_face for each face that was cut: its pieces, oriented as it was.
+/// one-sided. Faces connect at edges that two of them share, and as pieces of one face where others meet it.
+/// Edges are numbered in the order in which the faces have them. \param fixed by face: left alone, as if it
+/// were not there. \param pieces for each face before a cut: its pieces, see Imprint::pieces.
 Orientation orient_alike(std::vector<TopoDS_Shape>& faces, const std::vector<char>& fixed,
-                         const std::vector<std::vector<TopoDS_Shape>>& of_one_face = {});
+                         const std::vector<std::vector<int>>& pieces = {});
 
 }  // namespace quadrille

@@ -53,17 +53,6 @@ std::optional<gp_Pnt> inner_point(const TopoDS_Face& face) {
   return std::nullopt;
 }
 
-/// Whether an inner point of one face lies within the tolerance on the other. Both faces have the same edges.
-bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
-  const std::optional<gp_Pnt> point = inner_point(face);
-  if (!point) return false;
-  GeomAPI_ProjectPointOnSurf foot(*point, BRep_Tool::Surface(other));
-  if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
-  double u = 0, v = 0;
-  foot.LowerDistanceParameters(u, v);
-  return BRepTopAdaptor_FClass2d(other, Precision::PConfusion()).Perform(gp_Pnt2d(u, v)) != TopAbs_OUT;
-}
-
 std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTools_IndexedMapOfShape& edges,
                                                  double tolerance) {
   std::map<std::vector<int>, std::vector<int>> by_rim;
@@ -82,6 +71,16 @@ std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTo
 }
 
 }  // namespace
+
+bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
+  const std::optional<gp_Pnt> point = inner_point(face);
+  if (!point) return false;
+  GeomAPI_ProjectPointOnSurf foot(*point, BRep_Tool::Surface(other));
+  if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
+  double u = 0, v = 0;
+  foot.LowerDistanceParameters(u, v);
+  return BRepTopAdaptor_FClass2d(other, Precision::PConfusion()).Perform(gp_Pnt2d(u, v)) != TopAbs_OUT;
+}
 
 Sewn sew(const TopoDS_Shape& shape, double tolerance) {
   TopTools_IndexedMapOfShape faces, edges_before, edges_of_sewn, edges_after;

@@ -1,6 +1,7 @@
 #pragma once
 /// Joining faces that touch but do not share their edges. Internal: users see CadModel::sewn().
 
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 #include <array>
 #include <vector>
@@ -17,6 +18,10 @@ struct Sewn {
   /// Numbers of coincident faces with the same edges, the lower number first.
   std::vector<std::array<int, 2>> coincident;
 };
+
+/// Whether an inner point of one face lies within the tolerance on the other: for faces with the same edges,
+/// whether they coincide.
+bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance);
 
 /// Sews the faces of a shape (BRepBuilderAPI_Sewing, non-manifold edges allowed). The faces keep their order,
 /// and so their numbers, and form the same solids; edges and vertices are renumbered. Where edges were
