@@ -12,6 +12,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeShape.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
@@ -115,12 +116,12 @@ bool has_open_seam(const TopoDS_Shape& face, double tolerance) {
   return false;
 }
 
-/// The general fuse of a model with closed seams.
+/// The general fuse of a model's parts with closed seams.
 class Fuse {
  public:
-  Fuse(const TopoDS_Shape& shape, double tolerance) : shape_(shape) {
-    close_seams(tolerance);
-    parts_ = parts_of(shape_);
+  Fuse(const TopoDS_Shape& shape, double tolerance) : parts_(parts_of(shape)) {
+    for (TopoDS_Shape& part : parts_)
+      if (part.ShapeType() != TopAbs_SOLID) close_seams(part, tolerance);
     if (parts_.size() < 2) return;
     for (const TopoDS_Shape& part : parts_) builder_.AddArgument(part);
     builder_.SetNonDestructive(Standard_True);
@@ -132,9 +133,13 @@ class Fuse {
 
   const std::vector<TopoDS_Shape>& parts() const { return parts_; }
 
+  /// Whether there is nothing to join.
+  bool is_idle() const { return parts_.size() < 2 && closed_.IsEmpty(); }
+
   /// What a solid, face, edge or vertex of the model became; itself if no other part met it.
   std::vector<TopoDS_Shape> images_of(const TopoDS_Shape& original) {
-    const TopoDS_Shape part = sewing_.ModifiedSubShape(original);
+    const TopoDS_Shape* closed = closed_.Seek(original);
+    const TopoDS_Shape& part = closed ? *closed : original;
     std::vector<TopoDS_Shape> images;
     for (const TopoDS_Shape& image : builder_.Modified(part)) images.push_back(image);
     if (images.empty() && !builder_.IsDeleted(part)) images.push_back(part);
@@ -142,21 +147,21 @@ class Fuse {
   }
 
  private:
-  void close_seams(double tolerance) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(shape_, TopAbs_FACE, faces);
-    const std::vector<char> in_solid = faces_in_solids(shape_, faces);
-    bool open = false;
-    for (int i = 1; i <= faces.Extent() && !open; ++i)
-      open = in_solid[i - 1] == 0 && has_open_seam(faces(i), tolerance);
-    if (!open) return;
-    sewing_.Init(std::max(tolerance, Precision::Confusion()), true, true, false, true);
-    for (int i = 1; i <= faces.Extent(); ++i)
-      if (!in_solid[i - 1]) sewing_.Add(faces(i));
-    sewing_.Perform();
-    std::vector<TopoDS_Shape> closed;
-    for (int i = 1; i <= faces.Extent(); ++i) closed.push_back(sewing_.ModifiedSubShape(faces(i)));
-    shape_ = with_faces(shape_, faces, closed);
+  /// Sews a part with itself, if need be.
+  void close_seams(TopoDS_Shape& part, double tolerance) {
+    TopTools_IndexedMapOfShape faces, all;
+    TopExp::MapShapes(part, TopAbs_FACE, faces);
+    if (std::none_of(faces.cbegin(), faces.cend(),
+                     [&](const TopoDS_Shape& face) { return has_open_seam(face, tolerance); }))
+      return;
+    BRepBuilderAPI_Sewing sewing(std::max(tolerance, Precision::Confusion()), true, true, false, true);
+    for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
+    sewing.Perform();
+    std::vector<TopoDS_Shape> sewn;
+    for (int i = 1; i <= faces.Extent(); ++i) sewn.push_back(sewing.ModifiedSubShape(faces(i)));
+    TopExp::MapShapes(part, all);
+    for (int i = 1; i <= all.Extent(); ++i) closed_.Bind(all(i), sewing.ModifiedSubShape(all(i)));
+    part = with_faces(part, faces, sewn);
   }
 
   std::string reason() const {
@@ -166,8 +171,7 @@ class Fuse {
     return first.empty() ? "no reason given" : first;
   }
 
-  TopoDS_Shape shape_;
-  BRepBuilderAPI_Sewing sewing_;
+  TopTools_DataMapOfShapeShape closed_;  // of parts that were sewn: what is in the fuse instead
   BOPAlgo_Builder builder_;
   std::vector<TopoDS_Shape> parts_;
 };
@@ -249,7 +253,7 @@ TopoDS_Compound solids_of(Fuse& fuse) {
 
 Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   Fuse fuse(shape, tolerance);
-  if (fuse.parts().size() < 2) {
+  if (fuse.is_idle()) {
     const auto all_of = [&](TopAbs_ShapeEnum kind) {
       TopTools_IndexedMapOfShape all;
       TopExp::MapShapes(shape, kind, all);
