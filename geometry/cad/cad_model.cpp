@@ -228,6 +228,10 @@ CadModel CadModel::sewn(double tolerance) const {
     result->problems.push_back(fmt::format("{} edges were joined to others by sewing", made.joined));
     tell(made.orientation, result->problems);
     keep_pieces(*result, shape_->face_pieces);
+    if (!shape_->face_pieces.empty())
+      for (const std::string& told : shape_->problems)
+        if (std::find(result->problems.begin(), result->problems.end(), told) == result->problems.end())
+          result->problems.push_back(told);
     return CadModel(std::move(result));
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} cannot be sewn with a tolerance of {:.6g} ({})", name, tolerance,

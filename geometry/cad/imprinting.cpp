@@ -1,14 +1,16 @@
-/// Closes seams that are two edges, runs OpenCASCADE's general fuse on the parts, numbers the pieces so that
-/// faces keep theirs, and orients those outside solids.
+/// Makes swept surfaces elementary, closes seams that are two edges, runs OpenCASCADE's general fuse on the
+/// parts, numbers the pieces so that faces keep theirs, and orients those outside solids.
 
 #include "geometry/cad/imprinting.hpp"
 
 #include <BOPAlgo_Builder.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepTools_Modifier.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Precision.hxx>
+#include <ShapeCustom_SweptToElementary.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -116,10 +118,10 @@ bool has_open_seam(const TopoDS_Shape& face, double tolerance) {
   return false;
 }
 
-/// The general fuse of a model's parts with closed seams.
+/// The general fuse of a model's parts with elementary surfaces and closed seams.
 class Fuse {
  public:
-  Fuse(const TopoDS_Shape& shape, double tolerance) : parts_(parts_of(shape)) {
+  Fuse(const TopoDS_Shape& shape, double tolerance) : parts_(parts_of(elementary(shape))) {
     for (TopoDS_Shape& part : parts_)
       if (part.ShapeType() != TopAbs_SOLID) close_seams(part, tolerance);
     if (parts_.size() < 2) return;
@@ -134,12 +136,12 @@ class Fuse {
   const std::vector<TopoDS_Shape>& parts() const { return parts_; }
 
   /// Whether there is nothing to join.
-  bool is_idle() const { return parts_.size() < 2 && closed_.IsEmpty(); }
+  bool is_idle() const { return parts_.size() < 2 && !sewn_; }
 
   /// What a solid, face, edge or vertex of the model became; itself if no other part met it.
   std::vector<TopoDS_Shape> images_of(const TopoDS_Shape& original) {
-    const TopoDS_Shape* closed = closed_.Seek(original);
-    const TopoDS_Shape& part = closed ? *closed : original;
+    TopoDS_Shape part = original;
+    while (const TopoDS_Shape* instead = instead_.Seek(part)) part = *instead;
     std::vector<TopoDS_Shape> images;
     for (const TopoDS_Shape& image : builder_.Modified(part)) images.push_back(image);
     if (images.empty() && !builder_.IsDeleted(part)) images.push_back(part);
@@ -147,6 +149,24 @@ class Fuse {
   }
 
  private:
+  /// The shape with cylinders, cones and tori where it has swept lines and circles, as IGES files do. Where
+  /// such surfaces graze each other, the fuse may take minutes.
+  TopoDS_Shape elementary(const TopoDS_Shape& shape) {
+    BRepTools_Modifier modifier(shape);
+    modifier.Perform(new ShapeCustom_SweptToElementary);
+    const TopoDS_Shape result = modifier.ModifiedShape(shape).Oriented(shape.Orientation());
+    TopTools_IndexedMapOfShape before, after;
+    TopExp::MapShapes(shape, before);
+    TopExp::MapShapes(result, after);
+    if (before.Extent() != after.Extent()) return shape;
+    for (int i = 1; i <= before.Extent(); ++i) replace(before(i), after(i));
+    return result;
+  }
+
+  void replace(const TopoDS_Shape& part, const TopoDS_Shape& other) {
+    if (!part.IsSame(other)) instead_.Bind(part, other);
+  }
+
   /// Sews a part with itself, if need be.
   void close_seams(TopoDS_Shape& part, double tolerance) {
     TopTools_IndexedMapOfShape faces, all;
@@ -160,7 +180,8 @@ class Fuse {
     std::vector<TopoDS_Shape> sewn;
     for (int i = 1; i <= faces.Extent(); ++i) sewn.push_back(sewing.ModifiedSubShape(faces(i)));
     TopExp::MapShapes(part, all);
-    for (int i = 1; i <= all.Extent(); ++i) closed_.Bind(all(i), sewing.ModifiedSubShape(all(i)));
+    for (int i = 1; i <= all.Extent(); ++i) replace(all(i), sewing.ModifiedSubShape(all(i)));
+    sewn_ = true;
     part = with_faces(part, faces, sewn);
   }
 
@@ -171,7 +192,8 @@ class Fuse {
     return first.empty() ? "no reason given" : first;
   }
 
-  TopTools_DataMapOfShapeShape closed_;  // of parts that were sewn: what is in the fuse instead
+  TopTools_DataMapOfShapeShape instead_;  // what replaces parts of the model, or what replaced them
+  bool sewn_ = false;
   BOPAlgo_Builder builder_;
   std::vector<TopoDS_Shape> parts_;
 };
