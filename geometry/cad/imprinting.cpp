@@ -164,7 +164,7 @@ class Fuse {
   }
 
   void replace(const TopoDS_Shape& part, const TopoDS_Shape& other) {
-    if (!part.IsSame(other)) instead_.Bind(part, other);
+    if (!other.IsNull() && !part.IsSame(other)) instead_.Bind(part, other);
   }
 
   /// Sews a part with itself, if need be.
@@ -179,6 +179,10 @@ class Fuse {
     sewing.Perform();
     std::vector<TopoDS_Shape> sewn;
     for (int i = 1; i <= faces.Extent(); ++i) sewn.push_back(sewing.ModifiedSubShape(faces(i)));
+    if (std::any_of(sewn.begin(), sewn.end(), [](const TopoDS_Shape& face) {
+          return face.IsNull() || face.ShapeType() != TopAbs_FACE;
+        }))
+      return;
     TopExp::MapShapes(part, all);
     for (int i = 1; i <= all.Extent(); ++i) replace(all(i), sewing.ModifiedSubShape(all(i)));
     sewn_ = true;

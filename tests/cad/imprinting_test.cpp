@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
@@ -14,6 +16,7 @@
 #include <BRep_Builder.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
@@ -357,6 +360,31 @@ TEST(Imprinting, ATubeWithAnOpenSeamIsKept) {
   EXPECT_NEAR(model.area(), apart.area(), 1e-6 * apart.area());
   expect_joined(model);
   for (const auto& [nodes, runs] : sides_of(meshed(model))) EXPECT_EQ(runs.size(), 2u);
+}
+
+/// A pipe of radius 5 as a line that turns around an axis, as IGES files have it.
+TopoDS_Shape turned_line(const gp_Ax1& axis, const gp_Pnt& from, const gp_Pnt& to) {
+  const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(from, to).Edge();
+  const BRepAdaptor_Curve curve(line);
+  const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(curve.Curve().Curve(), axis);
+  return BRepBuilderAPI_MakeFace(surface, 0, 2 * std::acos(-1), curve.FirstParameter(), curve.LastParameter(),
+                                 1e-7)
+      .Face();
+}
+
+/// Equal pipes that cross graze each other in two points. As turned lines they kept the fuse busy for a
+/// minute.
+TEST(Imprinting, PipesThatCrossAreCylinders) {
+  const TopoDS_Shape upright = turned_line({{0, 0, 0}, gp::DZ()}, {5, 0, -10}, {5, 0, 10}),
+                     level = turned_line({{0, 0, 0}, gp::DX()}, {-10, 5, 0}, {10, 5, 0});
+  for (const double tolerance : {0.0, 0.5}) {
+    const CadModel model = model_of({upright, level.Reversed()}).imprinted(tolerance);
+    EXPECT_GE(model.face_count(), 6);
+    EXPECT_NEAR(model.area(), 2 * 200 * std::acos(-1), 1);
+    for (const CadFace& face : model.shape().faces)
+      EXPECT_EQ(BRepAdaptor_Surface(face.face).GetType(), GeomAbs_Cylinder);
+    expect_joined(model);
+  }
 }
 
 TEST(Imprinting, ASinglePartStaysAsItIs) {
