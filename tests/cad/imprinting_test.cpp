@@ -372,7 +372,7 @@ TopoDS_Shape turned_line(const gp_Ax1& axis, const gp_Pnt& from, const gp_Pnt& t
       .Face();
 }
 
-/// Equal pipes that cross graze each other in two points. As turned lines they kept the fuse busy for a
+/// Equal pipes that cross graze each other in two points. As turned lines they may keep the fuse busy for a
 /// minute.
 TEST(Imprinting, PipesThatCrossAreCylinders) {
   const TopoDS_Shape upright = turned_line({{0, 0, 0}, gp::DZ()}, {5, 0, -10}, {5, 0, 10}),
