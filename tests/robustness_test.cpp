@@ -3,12 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepGProp.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepTools.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom_Ellipse.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -171,6 +177,23 @@ TEST(Robustness, RefusesASurfaceThatIsACurve) {
   } catch (const Error& error) {
     EXPECT_EQ(error.subject(), "Face1");
     EXPECT_NE(std::string(error.what()).find("is a curve"), std::string::npos) << error.what();
+  }
+}
+
+/// OpenCASCADE's STEP reader leaves only the rim of a dome that is a turned ellipse.
+TEST(Robustness, TellsThatAReaderLostThePole) {
+  const Handle(Geom_Ellipse) ellipse = new Geom_Ellipse(gp_Ax2(gp::Origin(), -gp::DY(), gp::DX()), 50, 25);
+  const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(ellipse, gp::OZ());
+  const TopoDS_Edge rim =
+      BRepBuilderAPI_MakeEdge(new Geom2d_Line({0, 0}, gp_Dir2d(1, 0)), surface, 0, 2 * std::acos(-1)).Edge();
+  BRepLib::BuildCurves3d(rim);
+  const TopoDS_Shape dome = BRepBuilderAPI_MakeFace(surface, BRepBuilderAPI_MakeWire(rim)).Face();
+  try {
+    mesh_of(CadModel(std::make_shared<CadShape>(dome, "dome")), 15);
+    FAIL() << "meshed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.subject(), "Face1");
+    EXPECT_NE(std::string(error.what()).find("export"), std::string::npos) << error.what();
   }
 }
 

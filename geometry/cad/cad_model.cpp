@@ -147,6 +147,24 @@ void keep_pieces(CadShape& shape, std::vector<std::vector<int>> pieces) {
   shape.face_pieces = std::move(pieces);
 }
 
+/// Reports which faces were reversed, and where normals cannot agree.
+void tell(const Orientation& orientation, std::vector<std::string>& problems) {
+  const auto names = [](const char* kind, const std::vector<int>& numbers) {
+    std::vector<std::string> all;
+    for (const int number : numbers) all.push_back(fmt::format("{}{}", kind, number));
+    return first_few(all);
+  };
+  const auto& [turned, unlike] = orientation;
+  if (!turned.empty())
+    problems.push_back(fmt::format("{} faces were reversed so that joined faces are oriented alike: {}",
+                                   turned.size(), names("Face", turned)));
+  if (!unlike.empty())
+    problems.push_back(
+        fmt::format("normals cannot agree across {} edges, where three or more faces meet or the surface is "
+                    "one-sided: {}",
+                    unlike.size(), names("Edge", unlike)));
+}
+
 }  // namespace
 
 CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& options) {
@@ -195,9 +213,11 @@ CadModel CadModel::sewn(double tolerance) const {
     const Sewn made = sew(shape_->shape, tolerance);
     if (!made.coincident.empty()) {
       const auto [first, second] = made.coincident.front();
-      throw failure(name, fmt::format("Face{} and Face{} coincide, {} such pair(s) in all: use `imprint` to "
-                                      "join parts that touch; sewing joins edges only",
-                                      first, second, made.coincident.size()));
+      const char* remedy = shape_->face_pieces.empty()
+                               ? "use `imprint` to join parts that touch; sewing joins edges only"
+                               : "they are within the tolerance of `sew` after `imprint`; try a smaller one";
+      throw failure(name, fmt::format("Face{} and Face{} coincide, {} such pair(s) in all: {}", first, second,
+                                      made.coincident.size(), remedy));
     }
     auto result = std::make_shared<CadShape>(made.shape, name);
     if (result->faces.size() != shape_->faces.size()) {
@@ -206,14 +226,12 @@ CadModel CadModel::sewn(double tolerance) const {
                             name, tolerance));
     }
     result->problems.push_back(fmt::format("{} edges were joined to others by sewing", made.joined));
-    if (!made.turned.empty()) {
-      std::vector<std::string> names;
-      for (const int face : made.turned) names.push_back(fmt::format("Face{}", face));
-      result->problems.push_back(
-          fmt::format("{} faces were reversed so that sewn faces are oriented consistently: {}", names.size(),
-                      first_few(names)));
-    }
+    tell(made.orientation, result->problems);
     keep_pieces(*result, shape_->face_pieces);
+    if (!shape_->face_pieces.empty())
+      for (const std::string& told : shape_->problems)
+        if (std::find(result->problems.begin(), result->problems.end(), told) == result->problems.end())
+          result->problems.push_back(told);
     return CadModel(std::move(result));
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} cannot be sewn with a tolerance of {:.6g} ({})", name, tolerance,
@@ -231,6 +249,7 @@ CadModel CadModel::imprinted(double tolerance) const {
     Imprint made = imprint(shape_->shape, tolerance);
     auto result = std::make_shared<CadShape>(made.shape, name);
     keep_pieces(*result, std::move(made.pieces));
+    tell(made.orientation, result->problems);
     result->edge_pieces = std::move(made.edge_pieces);
     result->vertex_pieces = std::move(made.vertex_pieces);
     return CadModel(std::move(result));

@@ -47,8 +47,9 @@ class QUADRILLE_API CadModel {
 
   /// The model cut so that solids, shells and faces that touch or cross share faces, edges and vertices
   /// (OpenCASCADE's general fuse). Faces that touch no other part keep their numbers, and one piece of each
-  /// cut face keeps its number, see pieces(); edges and vertices get new numbers. A model of one part stays
-  /// as it is. Takes milliseconds a face where parts meet. Throws Error: usage if the tolerance is negative
+  /// cut face keeps its number, see pieces(); edges and vertices get new numbers. Seams of two edges become
+  /// one, and faces outside solids are oriented alike. A model of one part without such seams stays as it is.
+  /// Takes milliseconds a face where parts meet. Throws Error: usage if the tolerance is negative
   /// or not below the diagonal, failure if OpenCASCADE cannot do it. \param tolerance millimeters: parts no
   /// farther apart touch; 0 = within the tolerances of the model itself.
   CadModel imprinted(double tolerance = 0) const;

@@ -1,15 +1,24 @@
-/// Runs OpenCASCADE's general fuse on a model's parts, then numbers the pieces so that faces keep theirs.
+/// Makes swept surfaces elementary, closes seams that are two edges, runs OpenCASCADE's general fuse on the
+/// parts, numbers the pieces so that faces keep theirs, and orients those outside solids.
 
 #include "geometry/cad/imprinting.hpp"
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRepAdaptor_Curve.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepTools_Modifier.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Precision.hxx>
+#include <ShapeCustom_SweptToElementary.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeShape.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
@@ -18,6 +27,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "geometry/cad/face_exchange.hpp"
 
 namespace quadrille {
 
@@ -69,24 +80,130 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
   return list;
 }
 
-/// What a part of the model became; itself if no other part met it.
-std::vector<TopoDS_Shape> images_of(BOPAlgo_Builder& fuse, const TopoDS_Shape& part) {
-  std::vector<TopoDS_Shape> images;
-  for (const TopoDS_Shape& image : fuse.Modified(part)) images.push_back(image);
-  if (images.empty() && !fuse.IsDeleted(part)) images.push_back(part);
-  return images;
+/// A curve's ends and middle.
+struct Course {
+  gp_Pnt first, middle, last;
+  double tolerance;
+
+  explicit Course(const TopoDS_Edge& edge) : tolerance(BRep_Tool::Tolerance(edge)) {
+    const BRepAdaptor_Curve curve(edge);
+    const double from = curve.FirstParameter(), to = curve.LastParameter();
+    first = curve.Value(from);
+    middle = curve.Value((from + to) / 2);
+    last = curve.Value(to);
+  }
+  bool lies_on(const Course& other, double near) const {
+    near = std::max({near, tolerance, other.tolerance});
+    const auto meet = [&](const gp_Pnt& a, const gp_Pnt& b) { return a.Distance(b) <= near; };
+    return meet(middle, other.middle) && ((meet(first, other.first) && meet(last, other.last)) ||
+                                          (meet(first, other.last) && meet(last, other.first)));
+  }
+};
+
+/// Whether two edges of a face lie on each other, as the seams in IGES files do. The fuse makes them one
+/// edge, but gives it one parametric curve and loses the face.
+bool has_open_seam(const TopoDS_Shape& face, double tolerance) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(face, TopAbs_EDGE, edges);
+  std::vector<Course> courses;
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, TopoDS::Face(face))) continue;
+    const Course course(edge);
+    if (std::any_of(courses.begin(), courses.end(),
+                    [&](const Course& other) { return course.lies_on(other, tolerance); }))
+      return true;
+    courses.push_back(course);
+  }
+  return false;
 }
 
-std::string reason_of(const BOPAlgo_Builder& fuse) {
-  std::ostringstream text;
-  fuse.DumpErrors(text);
-  std::string reason = text.str();
-  reason = reason.substr(0, reason.find('\n'));
-  return reason.empty() ? "no reason given" : reason;
-}
+/// The general fuse of a model's parts with elementary surfaces and closed seams.
+class Fuse {
+ public:
+  Fuse(const TopoDS_Shape& shape, double tolerance) : parts_(parts_of(elementary(shape))) {
+    for (TopoDS_Shape& part : parts_)
+      if (part.ShapeType() != TopAbs_SOLID) close_seams(part, tolerance);
+    if (parts_.size() < 2) return;
+    for (const TopoDS_Shape& part : parts_) builder_.AddArgument(part);
+    builder_.SetNonDestructive(Standard_True);
+    builder_.SetRunParallel(Standard_False);
+    if (tolerance > 0) builder_.SetFuzzyValue(tolerance);
+    builder_.Perform();
+    if (builder_.HasErrors()) throw Standard_Failure(reason().c_str());
+  }
+
+  const std::vector<TopoDS_Shape>& parts() const { return parts_; }
+
+  /// Whether there is nothing to join.
+  bool is_idle() const { return parts_.size() < 2 && !sewn_; }
+
+  /// What a solid, face, edge or vertex of the model became; itself if no other part met it.
+  std::vector<TopoDS_Shape> images_of(const TopoDS_Shape& original) {
+    TopoDS_Shape part = original;
+    while (const TopoDS_Shape* instead = instead_.Seek(part)) part = *instead;
+    std::vector<TopoDS_Shape> images;
+    for (const TopoDS_Shape& image : builder_.Modified(part)) images.push_back(image);
+    if (images.empty() && !builder_.IsDeleted(part)) images.push_back(part);
+    return images;
+  }
+
+ private:
+  /// The shape with cylinders, cones and tori where it has swept lines and circles, as IGES files do. Where
+  /// such surfaces graze each other, the fuse may take minutes.
+  TopoDS_Shape elementary(const TopoDS_Shape& shape) {
+    BRepTools_Modifier modifier(shape);
+    modifier.Perform(new ShapeCustom_SweptToElementary);
+    const TopoDS_Shape result = modifier.ModifiedShape(shape).Oriented(shape.Orientation());
+    TopTools_IndexedMapOfShape before, after;
+    TopExp::MapShapes(shape, before);
+    TopExp::MapShapes(result, after);
+    if (before.Extent() != after.Extent()) return shape;
+    for (int i = 1; i <= before.Extent(); ++i) replace(before(i), after(i));
+    return result;
+  }
+
+  void replace(const TopoDS_Shape& part, const TopoDS_Shape& other) {
+    if (!other.IsNull() && !part.IsSame(other)) instead_.Bind(part, other);
+  }
+
+  /// Sews a part with itself, if need be.
+  void close_seams(TopoDS_Shape& part, double tolerance) {
+    TopTools_IndexedMapOfShape faces, all;
+    TopExp::MapShapes(part, TopAbs_FACE, faces);
+    if (std::none_of(faces.cbegin(), faces.cend(),
+                     [&](const TopoDS_Shape& face) { return has_open_seam(face, tolerance); }))
+      return;
+    BRepBuilderAPI_Sewing sewing(std::max(tolerance, Precision::Confusion()), true, true, false, true);
+    for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
+    sewing.Perform();
+    std::vector<TopoDS_Shape> sewn;
+    for (int i = 1; i <= faces.Extent(); ++i) sewn.push_back(sewing.ModifiedSubShape(faces(i)));
+    if (std::any_of(sewn.begin(), sewn.end(), [](const TopoDS_Shape& face) {
+          return face.IsNull() || face.ShapeType() != TopAbs_FACE;
+        }))
+      return;
+    TopExp::MapShapes(part, all);
+    for (int i = 1; i <= all.Extent(); ++i) replace(all(i), sewing.ModifiedSubShape(all(i)));
+    sewn_ = true;
+    part = with_faces(part, faces, sewn);
+  }
+
+  std::string reason() const {
+    std::ostringstream text;
+    builder_.DumpErrors(text);
+    const std::string first = text.str().substr(0, text.str().find('\n'));
+    return first.empty() ? "no reason given" : first;
+  }
+
+  TopTools_DataMapOfShapeShape instead_;  // what replaces parts of the model, or what replaced them
+  bool sewn_ = false;
+  BOPAlgo_Builder builder_;
+  std::vector<TopoDS_Shape> parts_;
+};
 
 /// For each face, edge or vertex of the shape before: the numbers of those that it became, ascending.
-std::vector<std::vector<int>> numbers_of_pieces(BOPAlgo_Builder& fuse, const TopoDS_Shape& before,
+std::vector<std::vector<int>> numbers_of_pieces(Fuse& fuse, const TopoDS_Shape& before,
                                                 const TopoDS_Shape& after, TopAbs_ShapeEnum kind) {
   TopTools_IndexedMapOfShape old, numbers;
   TopExp::MapShapes(before, kind, old);
@@ -94,7 +211,7 @@ std::vector<std::vector<int>> numbers_of_pieces(BOPAlgo_Builder& fuse, const Top
   std::vector<std::vector<int>> pieces;
   for (int i = 1; i <= old.Extent(); ++i) {
     std::vector<int>& found = pieces.emplace_back();
-    for (const TopoDS_Shape& piece : images_of(fuse, old(i)))
+    for (const TopoDS_Shape& piece : fuse.images_of(old(i)))
       if (const int number = numbers.FindIndex(piece); number > 0) found.push_back(number);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -125,7 +242,7 @@ class Numbering {
     }
   }
 
-  const std::vector<TopoDS_Shape>& faces() const { return place_; }
+  std::vector<TopoDS_Shape>& faces() { return place_; }
 
  private:
   void take(std::size_t face, const std::vector<TopoDS_Shape>& pieces) {
@@ -138,13 +255,31 @@ class Numbering {
   TopTools_MapOfShape taken_;
 };
 
+TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  const BRep_Builder builder;
+  TopoDS_Compound compound;
+  builder.MakeCompound(compound);
+  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
+  return compound;
+}
+
+/// The solids after the fuse, each once. Shells have no images of their own: their faces have.
+TopoDS_Compound solids_of(Fuse& fuse) {
+  std::vector<TopoDS_Shape> solids;
+  TopTools_MapOfShape added;
+  for (const TopoDS_Shape& part : fuse.parts()) {
+    if (part.ShapeType() != TopAbs_SOLID) continue;
+    for (const TopoDS_Shape& image : fuse.images_of(part))
+      if (added.Add(image)) solids.push_back(image);
+  }
+  return compound_of(solids);
+}
+
 }  // namespace
 
 Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
-  const std::vector<TopoDS_Shape> parts = parts_of(shape);
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  if (parts.size() < 2) {
+  Fuse fuse(shape, tolerance);
+  if (fuse.is_idle()) {
     const auto all_of = [&](TopAbs_ShapeEnum kind) {
       TopTools_IndexedMapOfShape all;
       TopExp::MapShapes(shape, kind, all);
@@ -152,43 +287,32 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
       for (int i = 1; i <= all.Extent(); ++i) same.push_back({i});
       return same;
     };
-    return {shape, all_of(TopAbs_FACE), all_of(TopAbs_EDGE), all_of(TopAbs_VERTEX)};
+    return {shape, all_of(TopAbs_FACE), all_of(TopAbs_EDGE), all_of(TopAbs_VERTEX), {}};
   }
-  BOPAlgo_Builder fuse;
-  for (const TopoDS_Shape& part : parts) fuse.AddArgument(part);
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetRunParallel(Standard_False);
-  if (tolerance > 0) fuse.SetFuzzyValue(tolerance);
-  fuse.Perform();
-  if (fuse.HasErrors()) throw Standard_Failure(reason_of(fuse).c_str());
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
   std::vector<std::vector<TopoDS_Shape>> pieces;
   for (int i = 1; i <= faces.Extent(); ++i) {
-    pieces.push_back(images_of(fuse, faces(i)));
+    pieces.push_back(fuse.images_of(faces(i)));
     if (pieces.back().empty()) throw Standard_Failure(fmt::format("Face{} is lost", i).c_str());
   }
-  const Numbering numbering(pieces);
-
-  // Faces are numbered in the order in which they are met. So they come first, before the parts made of them.
-  const BRep_Builder builder;
-  TopoDS_Compound all, skin;
-  builder.MakeCompound(all);
-  builder.MakeCompound(skin);
-  for (const TopoDS_Shape& face : numbering.faces()) builder.Add(skin, face);
-  builder.Add(all, skin);
-  TopTools_MapOfShape added;
-  for (const TopoDS_Shape& part : parts) {
-    if (part.ShapeType() == TopAbs_FACE) continue;
-    for (const TopoDS_Shape& image : images_of(fuse, part))
-      if (added.Add(image)) builder.Add(all, image);
-  }
+  Numbering numbering(pieces);
+  const TopoDS_Compound solids = solids_of(fuse);
   TopTools_IndexedMapOfShape numbers;
-  TopExp::MapShapes(all, TopAbs_FACE, numbers);
+  for (const TopoDS_Shape& face : numbering.faces()) numbers.Add(face);
+  TopExp::MapShapes(solids, TopAbs_FACE, numbers);
   if (numbers.Extent() != static_cast<int>(numbering.faces().size()))
     throw Standard_Failure("faces appear that are not pieces of the model's faces");
-
-  return {all, numbers_of_pieces(fuse, shape, all, TopAbs_FACE),
-          numbers_of_pieces(fuse, shape, all, TopAbs_EDGE),
-          numbers_of_pieces(fuse, shape, all, TopAbs_VERTEX)};
+  Imprint result;
+  result.pieces = numbers_of_pieces(fuse, shape, compound_of(numbering.faces()), TopAbs_FACE);
+  result.orientation = orient_alike(numbering.faces(), faces_in_solids(solids, numbers), result.pieces);
+  // Faces are numbered in the order in which they are met. So they come first, before the solids made of
+  // them.
+  const TopoDS_Compound all = compound_of({compound_of(numbering.faces()), solids});
+  result.shape = all;
+  result.edge_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_EDGE);
+  result.vertex_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_VERTEX);
+  return result;
 }
 
 std::vector<std::string> changes_of_faces(const std::vector<std::vector<int>>& pieces) {

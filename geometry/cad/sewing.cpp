@@ -1,4 +1,4 @@
-/// Joins edges by BRepBuilderAPI_Sewing, orients connected faces, and finds coincident faces by inner points.
+/// Joins edges by BRepBuilderAPI_Sewing and finds coincident faces by inner points.
 
 #include "geometry/cad/sewing.hpp"
 
@@ -53,17 +53,6 @@ std::optional<gp_Pnt> inner_point(const TopoDS_Face& face) {
   return std::nullopt;
 }
 
-/// Whether an inner point of one face lies within the tolerance on the other. Both faces have the same edges.
-bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
-  const std::optional<gp_Pnt> point = inner_point(face);
-  if (!point) return false;
-  GeomAPI_ProjectPointOnSurf foot(*point, BRep_Tool::Surface(other));
-  if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
-  double u = 0, v = 0;
-  foot.LowerDistanceParameters(u, v);
-  return BRepTopAdaptor_FClass2d(other, Precision::PConfusion()).Perform(gp_Pnt2d(u, v)) != TopAbs_OUT;
-}
-
 std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTools_IndexedMapOfShape& edges,
                                                  double tolerance) {
   std::map<std::vector<int>, std::vector<int>> by_rim;
@@ -81,75 +70,17 @@ std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTo
   return pairs;
 }
 
-/// Orients faces outside solids consistently across edges that two faces share.
-class Turning {
- public:
-  Turning(Faces& faces, const TopTools_IndexedMapOfShape& edges, const std::vector<char>& fixed)
-      : faces_(faces), fixed_(fixed), uses_(edges.Extent() + 1), uses_of_(faces.size()) {
-    for (int face = 0; face < static_cast<int>(faces.size()); ++face)
-      for (TopExp_Explorer it(faces[face], TopAbs_EDGE); it.More(); it.Next()) {
-        const bool forward = it.Current().Orientation() == TopAbs_FORWARD;
-        if (!forward && it.Current().Orientation() != TopAbs_REVERSED) continue;
-        const int edge = edges.FindIndex(it.Current());
-        uses_[edge].push_back({face, forward});
-        uses_of_[face].push_back(edge);
-      }
-  }
-
-  /// Returns the numbers of the faces that were reversed.
-  std::vector<int> run() {
-    std::vector<int> turned;
-    std::vector<char> met(faces_.size(), 0);
-    for (int seed = 0; seed < static_cast<int>(faces_.size()); ++seed) {
-      if (met[seed]) continue;
-      std::vector<int> piece{seed};
-      std::map<int, bool> opposite{{seed, false}};
-      bool one_sided = false;
-      for (std::size_t at = 0; at < piece.size(); ++at) visit(piece[at], piece, opposite, one_sided);
-      const auto movable = [&](int face) { return !fixed_[face]; };
-      const bool free = std::all_of(piece.begin(), piece.end(), movable);
-      for (const int face : piece) met[face] = 1;
-      if (one_sided || !free) continue;
-      const auto against = std::count_if(piece.begin(), piece.end(), [&](int f) { return opposite[f]; });
-      const bool minority = 2 * against <= static_cast<std::ptrdiff_t>(piece.size());
-      for (const int face : piece) {
-        if (opposite[face] != minority) continue;
-        faces_[face].Reverse();
-        turned.push_back(face + 1);
-      }
-    }
-    std::sort(turned.begin(), turned.end());
-    return turned;
-  }
-
- private:
-  struct Use {
-    int face;
-    bool forward;
-  };
-
-  /// Adds the neighbors of a face to its piece, with their orientations.
-  void visit(int face, std::vector<int>& piece, std::map<int, bool>& opposite, bool& one_sided) const {
-    for (const int edge : uses_of_[face]) {
-      const std::vector<Use>& uses = uses_[edge];
-      if (uses.size() != 2 || uses[0].face == uses[1].face) continue;
-      const int other = uses[0].face == face ? uses[1].face : uses[0].face;
-      const bool alike = uses[0].forward != uses[1].forward;
-      const auto [entry, fresh] = opposite.try_emplace(other, alike == opposite[face]);
-      if (fresh)
-        piece.push_back(other);
-      else if (entry->second != (alike == opposite[face]))
-        one_sided = true;
-    }
-  }
-
-  Faces& faces_;
-  const std::vector<char>& fixed_;
-  std::vector<std::vector<Use>> uses_;
-  std::vector<std::vector<int>> uses_of_;
-};
-
 }  // namespace
+
+bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
+  const std::optional<gp_Pnt> point = inner_point(face);
+  if (!point) return false;
+  GeomAPI_ProjectPointOnSurf foot(*point, BRep_Tool::Surface(other));
+  if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
+  double u = 0, v = 0;
+  foot.LowerDistanceParameters(u, v);
+  return BRepTopAdaptor_FClass2d(other, Precision::PConfusion()).Perform(gp_Pnt2d(u, v)) != TopAbs_OUT;
+}
 
 Sewn sew(const TopoDS_Shape& shape, double tolerance) {
   TopTools_IndexedMapOfShape faces, edges_before, edges_of_sewn, edges_after;
@@ -170,12 +101,8 @@ Sewn sew(const TopoDS_Shape& shape, double tolerance) {
     return !face.IsNull() && face.ShapeType() == TopAbs_FACE;
   });
   if (all_are_faces) {
-    std::vector<char> in_solid(sewn.size(), 0);
-    for (TopExp_Explorer solid(shape, TopAbs_SOLID); solid.More(); solid.Next())
-      for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next())
-        in_solid[faces.FindIndex(face.Current()) - 1] = 1;
     if (edges_of_sewn.Extent() < edges_before.Extent())
-      result.turned = Turning(sewn, edges_of_sewn, in_solid).run();
+      result.orientation = orient_alike(sewn, faces_in_solids(shape, faces));
     result.coincident = coincident_faces(sewn, edges_of_sewn, tolerance);
   }
   result.shape = with_faces(shape, faces, sewn);

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/cad/sewing.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -39,6 +40,9 @@ std::vector<std::vector<FaceId>> parts_of(const CadShape& shape) {
         if (vertex.exists()) unions.union_set(face.index(), count + vertex.index());
     }
   }
+  for (const FaceId face : shape.faces.ids())  // where others touch it in a point
+    for (const InnerVertex& inner : shape.faces[face].inner_vertices)
+      unions.union_set(face.index(), count + inner.vertex.index());
   if (shape.solids > 0) {
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(shape.shape, TopAbs_FACE, faces);
@@ -99,7 +103,7 @@ class Search {
     }
     for (const auto& [parts, faces] : met_) result_.faces.push_back(faces);
     std::sort(result_.faces.begin(), result_.faces.end());
-    result_.free_edges = !met_.empty() && free_ == met_.size();
+    result_.free_edges = !met_.empty() && free_ == met_.size() && !faces_coincide_;
     return std::move(result_);
   }
 
@@ -143,7 +147,12 @@ class Search {
         const double near = reach(a.tolerance, b.tolerance);
         if ((middles[i].point - middles[j].point).norm() > near || !same_ends(a, b, near)) continue;
         ++result_.edges;
-        if (add(a.faces.front(), b.faces.front()) && a.faces.size() == 1 && b.faces.size() == 1) ++free_;
+        const FaceId face = a.faces.front(), other = b.faces.front();
+        if (add(face, other) && a.faces.size() == 1 && b.faces.size() == 1) ++free_;
+        const std::size_t common = ++edges_in_common_[{std::min(face, other), std::max(face, other)}];
+        if (common == edges_of_[face].size() && common == edges_of_[other].size() &&
+            lies_on(shape_.faces[face].face, shape_.faces[other].face, near))
+          faces_coincide_ = true;
       }
   }
 
@@ -225,14 +234,34 @@ class Search {
   IdVector<FaceId, std::vector<EdgeId>> edges_of_;
   std::vector<Bnd_Box> part_boxes_;
   std::map<std::array<int, 2>, std::array<int, 2>> met_;
+  std::map<std::array<FaceId, 2>, std::size_t> edges_in_common_;
   std::size_t free_ = 0;
+  bool faces_coincide_ = false;
   int tests_ = 0;
   Contacts result_;
 };
 
 }  // namespace
 
-std::string Contacts::sentence() const {
+std::string advice(std::string_view remedy, const std::set<std::string_view>& tried) {
+  if (tried.count(remedy) > 0 && remedy == "keep_features") return "a smaller size there may part them";
+  if (tried.count(remedy) > 0)
+    return fmt::format(
+        "they are left after `{}`: parts that touch in a point or only graze each other have no "
+        "line in common, gaps need a larger tolerance of `sew`, all else is to be repaired in "
+        "the program that made the file",
+        remedy);
+  if (remedy == "sew") return "`sew` joins such edges";
+  return remedy == "imprint" ? "`imprint` joins parts that touch or cross"
+                             : "`keep_features` meshes what is thin between them";
+}
+
+std::string_view Contacts::remedy() const {
+  if (faces.empty()) return "";
+  return free_edges ? "sew" : "imprint";
+}
+
+std::string Contacts::sentence(const std::set<std::string_view>& tried) const {
   if (faces.empty()) return "";
   constexpr std::size_t most = 4;
   std::vector<std::string> names;
@@ -245,7 +274,7 @@ std::string Contacts::sentence() const {
       "{}{} pair(s) of parts touch or cross without sharing edges ({}{}){}, so that their meshes are "
       "not joined: {}",
       all_tested ? "" : "at least ", faces.size(), fmt::join(names, "; "), more, along,
-      free_edges ? "`sew` joins such edges" : "`imprint` joins such parts");
+      advice(remedy(), tried));
 }
 
 Contacts contacts(const CadShape& shape, const ExecutionContext& context) {

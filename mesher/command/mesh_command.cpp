@@ -8,6 +8,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
@@ -133,9 +134,13 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
       Measured measured;
       oneapi::tbb::parallel_invoke(
           [&] {
-            measured.coincidences = coincidences(mesh);
-            // Parts that touch may have no node in common.
-            if (measured.coincidences.nodes == 0) measured.contacts = contacts(model.shape());
+            Coincidences& found = measured.coincidences = coincidences(mesh);
+            // Parts that touch may have no node in common, and edges on each other few.
+            const Contacts touching = contacts(model.shape());
+            if (found.nodes == 0)
+              measured.contacts = touching;
+            else if (!touching.faces.empty())
+              found.sewing_suffices = touching.free_edges && found.quads == 0;
           },
           [&] {
             if (with_volumes) measured.volumes = volumes(model, mesh);
@@ -154,13 +159,23 @@ nlohmann::json names(const char* kind, const std::vector<int>& numbers) {
   return result;
 }
 
+/// The settings against coincident nodes that hold already.
+std::set<std::string_view> tried_settings(const Settings& settings) {
+  std::set<std::string_view> tried;
+  if (settings.imprint) tried.insert("imprint");
+  if (settings.sew > 0) tried.insert("sew");
+  if (settings.mesh.keep_features) tried.insert("keep_features");
+  return tried;
+}
+
 /// What touches without being joined, in the mesh and between the parts of the model.
-nlohmann::json coincident_to_json(const Measured& measured) {
+nlohmann::json coincident_to_json(const Measured& measured, const std::set<std::string_view>& tried) {
   const Coincidences& found = measured.coincidences;
   nlohmann::json touching = nlohmann::json::array();
   for (const auto& [face, other] : measured.contacts.faces) touching.push_back(names("Face", {face, other}));
-  std::string remedy = option_of(found.remedy());
-  if (!measured.contacts.faces.empty()) remedy = option_of(measured.contacts.free_edges ? "sew" : "imprint");
+  const std::string_view setting =
+      measured.contacts.faces.empty() ? found.remedy() : measured.contacts.remedy();
+  const std::string remedy = tried.count(setting) > 0 ? "" : option_of(setting);
   return {{"nodes", found.nodes},
           {"quads", found.quads},
           {"free_edges", names("Edge", found.free_edges)},
@@ -210,7 +225,9 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   for (const std::string& warning : result.warnings) warnings.push_back(with_options(warning));
   warn_off_geometry(result, warnings);
   warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
-  for (const std::string& sentence : {measured.coincidences.sentence(), measured.contacts.sentence()})
+  const std::set<std::string_view> tried = tried_settings(arguments.settings);
+  for (const std::string& sentence :
+       {measured.coincidences.sentence(tried), measured.contacts.sentence(tried)})
     if (!sentence.empty()) warnings.push_back(with_options(sentence));
   if (!measured.bad_skins.empty()) warnings.push_back(bad_skins_sentence(measured.bad_skins));
   if (!arguments.report.empty()) {
@@ -220,7 +237,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (meshed.middle) report["skins"] = {{"turned_over", names("Face", measured.bad_skins)}};
     if (measured.volumes)
       report["volume"] = {{"cad", measured.volumes->cad}, {"mesh", measured.volumes->mesh}};
-    report["coincident"] = coincident_to_json(measured);
+    report["coincident"] = coincident_to_json(measured, tried);
     if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);
   }

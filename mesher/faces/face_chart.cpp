@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/cad/seams.hpp"
 #include "geometry/cad/shape_completion.hpp"
 
 namespace quadrille {
@@ -42,10 +43,17 @@ FaceChart chart_of(const CadShape& shape, FaceId face, const BoundaryNodes& node
       kind == ChartKind::view ? FaceSurface::seen_from_above(cad_face, widest_loop(cad_face, nodes))
                               : FaceSurface(cad_face));
   if (chart.surface->is_curve())
-    throw FaceProblem(Cause::no_area, face,
-                      fmt::format("the surface of Face{} is a curve, without area: the file may be damaged; "
-                                  "`faces` can leave the face out",
-                                  face.number()));
+    throw FaceProblem(
+        Cause::no_area, face,
+        lacks_seam(cad_face.face)
+            ? fmt::format("the boundary of Face{} runs once around its surface and bounds no area: "
+                          "OpenCASCADE's reader has lost its pole and seam, as it does with "
+                          "ellipsoids in STEP; export the part as BREP or IGES, or leave the face "
+                          "out with `faces`",
+                          face.number())
+            : fmt::format("the surface of Face{} is a curve, without area: the file may be "
+                          "damaged; `faces` can leave the face out",
+                          face.number()));
   chart.boundary = face_boundary(shape, face, cad_face, *chart.surface, nodes);
   return chart;
 }

@@ -15,6 +15,7 @@
 #include <unordered_set>
 
 #include "geometry/base/side_key.hpp"
+#include "geometry/surfaces/contacts.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 
 namespace quadrille {
@@ -154,7 +155,7 @@ std::string_view Coincidences::remedy() const {
   return sewing_suffices ? "sew" : "imprint";
 }
 
-std::string Coincidences::sentence() const {
+std::string Coincidences::sentence(const std::set<std::string_view>& tried) const {
   std::vector<std::string> found;
   if (nodes > 0) found.push_back(fmt::format("{} nodes lie on others without being joined to them", nodes));
   if (nodes > 0 && !faces.empty()) found.back() += fmt::format(", on {}", names("Face", faces));
@@ -163,10 +164,7 @@ std::string Coincidences::sentence() const {
         fmt::format("{} free edges lie on other edges ({})", free_edges.size(), names("Edge", free_edges)));
   if (quads > 0) found.push_back(fmt::format("{} quads lie on other quads", quads));
   if (found.empty()) return "";
-  const char* advice = remedy() == "sew"       ? "`sew` joins such edges"
-                       : remedy() == "imprint" ? "`imprint` joins parts that touch or cross"
-                                               : "`keep_features` meshes what is thin between them";
-  return fmt::format("{}: {}", fmt::join(found, "; "), advice);
+  return fmt::format("{}: {}", fmt::join(found, "; "), advice(remedy(), tried));
 }
 
 Coincidences coincidences(const ShellMesh& mesh) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes, edges and quads of a mesh that lie on others without being joined to them.
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,8 @@ struct Coincidences {
   /// The name of the setting that joins or parts them: "sew"; "imprint"; "keep_features" where quads lie on
   /// quads with the same nodes, since the sides of something thin were suppressed; empty if there are none.
   std::string_view remedy() const;
-  /// "38 nodes lie on others ...", with the remedy; empty if there are none.
-  std::string sentence() const;
+  /// "38 nodes lie on others ...", with advice(); empty if there are none.
+  std::string sentence(const std::set<std::string_view>& tried = {}) const;
 };
 
 /// Two nodes are at one place if they are within 1e-7 of the mesh's diagonal, or a 10000th of the median

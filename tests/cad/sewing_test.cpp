@@ -4,9 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepFill.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <cmath>
 #include <gp_Pln.hxx>
+#include <vector>
 
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_model.hpp"
@@ -24,9 +28,27 @@ TopoDS_Shape square(double x) {
 TEST(Sewing, TurnsTheFewerFaces) {
   const Sewn sewn = sew(compound({square(0), square(10).Reversed(), square(20)}), 1e-3);
   EXPECT_EQ(sewn.joined, 2);
-  EXPECT_EQ(sewn.turned, std::vector<int>{2});
+  EXPECT_EQ(sewn.orientation.turned, std::vector<int>{2});
   const CadShape shape(sewn.shape, "squares");
   for (const CadFace& face : shape.faces) EXPECT_FALSE(face.reversed);
+}
+
+/// A strip in three faces whose end is turned over: it has one side.
+TEST(Sewing, TellsWhereNormalsCannotAgree) {
+  const auto rung = [](int i) {
+    const double turn = i * 2 * std::acos(-1) / 3, twist = turn / 2;
+    const gp_Vec out(std::cos(turn), std::sin(turn), 0);
+    const gp_Vec half = out * std::cos(twist) + gp_Vec(0, 0, 1) * std::sin(twist);
+    const gp_Pnt middle = gp_Pnt(0, 0, 0).Translated(out * 10);
+    return BRepBuilderAPI_MakeEdge(middle.Translated(-half * 2), middle.Translated(half * 2)).Edge();
+  };
+  std::vector<TopoDS_Shape> strip;
+  for (int i = 0; i < 3; ++i) strip.push_back(BRepFill::Face(rung(i), rung(i + 1)));
+  const Sewn sewn = sew(compound(strip), 1e-3);
+  EXPECT_EQ(sewn.joined, 3);
+  EXPECT_TRUE(sewn.orientation.turned.empty());
+  EXPECT_FALSE(sewn.orientation.unlike.empty());
+  EXPECT_TRUE(sew(compound({strip[0], strip[1]}), 1e-3).orientation.unlike.empty());
 }
 
 TEST(Sewing, LeavesFacesOfSolidsAsTheyAre) {
@@ -34,7 +56,7 @@ TEST(Sewing, LeavesFacesOfSolidsAsTheyAre) {
                                   BRepPrimAPI_MakeBox(gp_Pnt(10, 10, 0), gp_Pnt(20, 20, 10)).Shape()}),
                         1e-3);
   EXPECT_EQ(sewn.joined, 1);
-  EXPECT_TRUE(sewn.turned.empty());
+  EXPECT_TRUE(sewn.orientation.turned.empty());
   EXPECT_TRUE(sewn.coincident.empty());
 }
 

@@ -8,6 +8,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <gp_Pln.hxx>
 
+#include "geometry/cad/cad_model.hpp"
 #include "tests/models/trouble_models.hpp"
 
 namespace quadrille {
@@ -64,6 +65,32 @@ TEST(Contacts, FacesSideBySide) {
   EXPECT_EQ(found.edges, 1);
   EXPECT_TRUE(found.free_edges);
   EXPECT_NE(found.sentence().find("`sew`"), std::string::npos) << found.sentence();
+}
+
+/// Faces with the same edges are for imprinting: sewing would leave two of them.
+TEST(Contacts, FacesOnFaces) {
+  const Contacts found = contacts_of({rectangle(flat, 0, 10, 0, 10), rectangle(flat, 0, 10, 0, 10)});
+  EXPECT_EQ(found.edges, 4);
+  EXPECT_EQ(found.remedy(), "imprint");
+}
+
+/// The corner of one plate lies inside the other, which has a vertex there: they share it.
+TEST(Contacts, PartsThatShareAnInnerVertexAreOne) {
+  const gp_Pln upright(gp_Ax3(gp::Origin(), gp::DY(), gp_Dir(1, 0, 1)));
+  const CadModel apart(std::make_shared<CadShape>(
+      compound({rectangle(flat, -10, 10, -10, 10), rectangle(upright, 0, 5, -5, 0)}), "plates"));
+  EXPECT_EQ(contacts(apart.shape()).faces.size(), 1u);
+  EXPECT_TRUE(contacts(apart.imprinted().shape()).faces.empty());
+}
+
+/// What was tried is not advised again.
+TEST(Contacts, AdvisesNothingTwice) {
+  const Contacts found = contacts_of({rectangle(flat, 0, 10, 0, 10), rectangle(flat, 10, 20, 0, 10)});
+  EXPECT_NE(found.sentence().find("`sew` joins"), std::string::npos);
+  EXPECT_NE(found.sentence({"imprint"}).find("`sew` joins"), std::string::npos);
+  const std::string left = found.sentence({"imprint", "sew"});
+  EXPECT_EQ(left.find("joins"), std::string::npos) << left;
+  EXPECT_NE(left.find("Face1 and Face2"), std::string::npos) << left;
 }
 
 }  // namespace
