@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/error.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/base/place_text.hpp"
 
@@ -178,7 +179,7 @@ QUADRILLE_EXPORT std::string quadrille_vdb_file(const VdbField& field, std::stri
     bytes = std::move(out).str();
     return {};
   } catch (const std::exception& problem) {
-    return fmt::format("OpenVDB could not write the size field ({})", problem.what());
+    return fmt::format("OpenVDB could not write the size field: {}", sentence_of(problem));
   }
 }
 
