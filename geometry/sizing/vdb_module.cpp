@@ -175,6 +175,7 @@ QUADRILLE_EXPORT std::string quadrille_vdb_file(const VdbField& field, std::stri
     openvdb::GridPtrVec grids;
     for (const VdbLevel& level : field.levels) grids.push_back(to_grid(level, field));
     std::ostringstream out;
+    out.exceptions(std::ios::badbit);  // a stream that finds no memory swallows the exception otherwise
     SeekableArchive().write(out, grids);
     bytes = std::move(out).str();
     return {};
