@@ -72,9 +72,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), f
     if (descriptor_ < 0) fail(errno);
     return;
   }
-  const std::filesystem::path folder = final_.has_parent_path() ? final_.parent_path() : ".";
-  if (!open_unnamed(folder)) {
-    with_random_name(folder, [&](const char* name) {
+  folder_ = final_.has_parent_path() ? final_.parent_path() : ".";
+  if (!open_unnamed()) {
+    with_random_name([&](const char* name) {
       descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       return descriptor_ >= 0;
     });
@@ -87,14 +87,15 @@ AtomicFile::AtomicFile(const std::filesystem::path& target) : target_(target), f
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
+  if (folder_descriptor_ >= 0) ::close(folder_descriptor_);
   if (temporary_.empty()) return;
   forget_unfinished(temporary_.c_str());
   ::unlink(temporary_.c_str());
 }
 
 /// False where the file system has no unnamed files, or cannot give them a name later.
-bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
-  descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+bool AtomicFile::open_unnamed() {
+  descriptor_ = ::open(folder_.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (descriptor_ < 0) return false;
   if (::access(own_descriptor(descriptor_).c_str(), F_OK) == 0) return true;
   ::close(descriptor_);
@@ -103,14 +104,14 @@ bool AtomicFile::open_unnamed(const std::filesystem::path& folder) {
 }
 
 template <class Attempt>
-void AtomicFile::with_random_name(const std::filesystem::path& folder, Attempt&& attempt) {
+void AtomicFile::with_random_name(Attempt&& attempt) {
   // The name does not contain the target's name, which may already be as long as the file system allows. Nor
   // does it contain the process ID, which processes in other containers may share.
   constexpr int attempts = 100;
   std::random_device random;
   for (int i = 0; i < attempts; ++i) {
-    std::filesystem::path name =
-        folder / fmt::format(".quadrille-{:08x}{:08x}.tmp", std::uint32_t{random()}, std::uint32_t{random()});
+    std::filesystem::path name = folder_ / fmt::format(".quadrille-{:08x}{:08x}.tmp", std::uint32_t{random()},
+                                                       std::uint32_t{random()});
     if (attempt(name.c_str())) {
       temporary_ = std::move(name);
       note_unfinished(temporary_.c_str());
@@ -131,7 +132,18 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
-  if (!in_place_ && temporary_.empty()) {
+  if (in_place_) return close();
+  // The contents must reach the disk before the name: after a power failure the file would be empty.
+  if (::fsync(descriptor_) != 0) fail(errno);
+  folder_descriptor_ = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_descriptor_ < 0 && errno != EACCES) fail(errno);  // a folder may be writable but not readable
+  put_in_place();
+  // The name outlasts a power failure too. Some file systems cannot do this for folders (EINVAL).
+  if (folder_descriptor_ >= 0 && ::fsync(folder_descriptor_) != 0 && errno != EINVAL) fail(errno);
+}
+
+void AtomicFile::put_in_place() {
+  if (temporary_.empty()) {
     // Network file systems report a full disk only when a descriptor is closed.
     const int other = ::dup(descriptor_);
     if (other < 0 || ::close(other) != 0) fail(errno);
@@ -142,10 +154,9 @@ void AtomicFile::commit() {
     if (link_to(final_.c_str())) return close();
     // Only a file with a name can replace the existing file.
     if (errno != EEXIST) fail(errno);
-    with_random_name(final_.has_parent_path() ? final_.parent_path() : ".", link_to);
+    with_random_name(link_to);
   }
   close();
-  if (temporary_.empty()) return;
   if (std::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
   forget_unfinished(temporary_.c_str());
   temporary_.clear();

@@ -26,22 +26,25 @@ class AtomicFile {
   /// process (where SIGXFSZ is ignored), or when the reader of the pipe has closed it.
   void write(std::string_view bytes);
 
-  /// Makes the file appear under its name.
+  /// Makes the file appear under its name, once its contents are on the disk; the name is too at the end.
+  /// Throws as write() does, also for what the disk reports only then.
   void commit();
 
  private:
-  bool open_unnamed(const std::filesystem::path& folder);
+  bool open_unnamed();
   /// Calls `attempt` with random names in the folder until one succeeds; the file then has that name.
   template <class Attempt>
-  void with_random_name(const std::filesystem::path& folder, Attempt&& attempt);
+  void with_random_name(Attempt&& attempt);
+  void put_in_place();
   void close();
   [[noreturn]] void fail(int error_number) const;
 
-  std::filesystem::path target_;     // as the caller gave it, for messages
-  std::filesystem::path final_;      // with symbolic links followed
+  std::filesystem::path target_;  // as the caller gave it, for messages
+  std::filesystem::path final_;   // with symbolic links followed
+  std::filesystem::path folder_;
   std::filesystem::path temporary_;  // name of the file until it is put in place; empty = unnamed
   bool in_place_ = false;
-  int descriptor_ = -1;
+  int descriptor_ = -1, folder_descriptor_ = -1;
   void* file_ = nullptr;  // the handle on Windows
 };
 

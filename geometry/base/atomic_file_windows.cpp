@@ -104,6 +104,7 @@ void AtomicFile::write(std::string_view bytes) {
 }
 
 void AtomicFile::commit() {
+  if (!::FlushFileBuffers(file_)) fail(::GetLastError());
   if (!mark_for_deletion(file_, false)) fail(::GetLastError());
   close();
   if (!::MoveFileExW(temporary_.c_str(), final_.c_str(), MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH))

@@ -14,9 +14,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <ext/stdio_filebuf.h>
 #include <fstream>
 #include <istream>
+#include <new>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -78,13 +80,16 @@ class Child {
   pid_t id_;
 };
 
-/// Detaches the child from the program's signal handlers and standard streams. It ends with its parent, even
+/// Detaches the child from the program's handlers and standard streams. It ends with its parent, even
 /// if the parent is killed.
 void become_worker(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent had already been killed
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM, SIGPIPE})
     std::signal(signal, SIG_DFL);
+  // The parent tells what happens here, and the unfinished files are its own.
+  std::set_new_handler(nullptr);
+  std::set_terminate([] { ::_exit(1); });
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the parent decides
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
@@ -102,8 +107,9 @@ void limit_memory(std::size_t bytes) {
   ::setrlimit(RLIMIT_AS, &limit);
 }
 
+/// No exception leaves it: it would go on as if the child were the parent.
 [[noreturn]] void work_as_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                                int pipe) {
+                                int pipe) noexcept {
   if (options.memory > 0) limit_memory(options.memory);
   __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
@@ -124,6 +130,7 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
     if (::poll(&watched, 1, ended ? 0 : interval) > 0) {
       const ssize_t count = ::read(pipe, chunk.data(), chunk.size());
       if (count == 0) return bytes;
+      if (count < 0 && errno != EINTR) throw no_process(options.subject);
       if (count > 0) bytes.append(chunk.data(), count);
     } else if (ended) {
       return bytes;

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/base/error.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/base/place_text.hpp"
 
@@ -174,11 +175,12 @@ QUADRILLE_EXPORT std::string quadrille_vdb_file(const VdbField& field, std::stri
     openvdb::GridPtrVec grids;
     for (const VdbLevel& level : field.levels) grids.push_back(to_grid(level, field));
     std::ostringstream out;
+    out.exceptions(std::ios::badbit);  // a stream that finds no memory swallows the exception otherwise
     SeekableArchive().write(out, grids);
     bytes = std::move(out).str();
     return {};
   } catch (const std::exception& problem) {
-    return fmt::format("OpenVDB could not write the size field ({})", problem.what());
+    return fmt::format("OpenVDB could not write the size field: {}", sentence_of(problem));
   }
 }
 

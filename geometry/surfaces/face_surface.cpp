@@ -181,6 +181,7 @@ FaceSurface::~FaceSurface() = default;
 FaceSurface::FaceSurface(FaceSurface&&) noexcept = default;
 
 double FaceSurface::distance_at_least(const Vector3& point) const {
+  if (kind_ == Kind::other) return 0;  // without a frame
   const Vector3 from = point - origin_;
   const double height = from.dot(z_), beside = std::hypot(from.dot(x_), from.dot(y_));
   switch (kind_) {

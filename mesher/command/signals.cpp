@@ -1,17 +1,24 @@
 /// POSIX signals. docs/porting.md describes what replaces them on other systems.
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <cxxabi.h>
+#include <Standard_OutOfMemory.hxx>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <thread>
+#include <typeinfo>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/isolated_work.hpp"
@@ -36,11 +43,13 @@ namespace {
 // State of the handlers below, which may call only what is safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
 std::atomic<bool> ending{false}, delivers_part{false};
-char crash_line[512], time_line[512];
+char time_line[512];
 constexpr char cancel_line[] = "quadrille: the work was cancelled\n";
 constexpr int grace_microseconds = 150000, grace_of_parts_microseconds = 850000;
 
 [[noreturn]] void end_process(const char* line, int code) {
+  static std::atomic<bool> told{false};
+  if (told.exchange(true)) ::sleep(1);  // another thread ends the process, or this one within a handler
   remove_unfinished_files();
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, std::strlen(line));
   ::_exit(code);
@@ -67,21 +76,8 @@ extern "C" void handle_alarm(int) {
   end_process(was_cancelled ? cancel_line : time_line, was_cancelled ? 130 : 1);
 }
 
-extern "C" void handle_crash(int) {
-  end_process(crash_line, 1);
-}
-
 extern "C" void handle_cpu_limit(int) {
   end_process("quadrille: the CPU time limit of this process (ulimit -t) is reached\n", 1);
-}
-
-/// Lets the handlers run on this thread after endless recursion, when its own stack has no room left.
-void give_handlers_a_stack() {
-  thread_local char stack[1 << 16];
-  stack_t alternative{};
-  alternative.ss_sp = stack;
-  alternative.ss_size = sizeof(stack);
-  ::sigaltstack(&alternative, nullptr);
 }
 
 /// Copies a line; cuts off what does not fit before its line break.
@@ -132,21 +128,77 @@ void tell_limits() {
   std::signal(SIGXCPU, handle_cpu_limit);
 }
 
-void report_crashes(const std::filesystem::path& file, std::string_view work) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(file), static_cast<void>(work);  // the sanitizer's report says more
+#ifdef QUADRILLE_SANITIZED
+
+void report_crashes(const std::filesystem::path&, std::string_view) {}  // the sanitizer's report says more
+
 #else
-  copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged\n",
-                                    printable(file.string()), work));
-  give_handlers_a_stack();
-  prepare_threads(give_handlers_a_stack);
+
+namespace {
+
+char crash_line[512] = "quadrille: the program crashed\n";
+
+extern "C" [[noreturn]] void handle_crash(int) {
+  end_process(crash_line, 1);
+}
+
+/// Memory that is lacking ends the program at once: an exception may not pass everywhere (destructors,
+/// threads, constructors of static objects), OpenCASCADE swallows it and goes on with less, and to make one
+/// takes memory.
+[[noreturn]] void end_without_memory() {
+  end_process("quadrille: there is not enough memory (a damaged file may promise more than it holds)\n", 1);
+}
+
+/// An exception that nobody catches: a crash, unless there was no memory to make one.
+[[noreturn]] void handle_termination() {
+  if (abi::__cxa_current_exception_type() == nullptr) end_without_memory();
+  handle_crash(SIGABRT);
+}
+
+/// Lets the handlers run on this thread after endless recursion, when its own stack has no room left.
+void give_handlers_a_stack() {
+  thread_local char stack[1 << 16];
+  stack_t alternative{};
+  alternative.ss_sp = stack;
+  alternative.ss_size = sizeof(stack);
+  ::sigaltstack(&alternative, nullptr);
+}
+
+void tell_crashes() {
+  std::set_new_handler(end_without_memory);
+  std::set_terminate(handle_termination);
   struct sigaction action {};
   action.sa_handler = handle_crash;
   action.sa_flags = SA_ONSTACK;
   for (const int signal_number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
     ::sigaction(signal_number, &action, nullptr);
   }
-#endif
 }
+
+/// Called before the constructors of all libraries, which may fail too.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const first_call)() = tell_crashes;
+
+}  // namespace
+
+/// Takes the place of the C++ runtime's own function in all libraries: what is thrown for lack of memory may
+/// not come from operator new, which has a handler. Children that report to this process have none.
+extern "C" [[gnu::visibility("default")]] void __cxa_throw(  // NOLINT(bugprone-reserved-identifier)
+    void* exception, std::type_info* type, void (*destroy)(void*)) {
+  if ((*type == typeid(std::bad_alloc) || *type == typeid(Standard_OutOfMemory)) &&
+      std::get_new_handler() == end_without_memory)
+    end_without_memory();
+  static const auto next = reinterpret_cast<decltype(&__cxa_throw)>(::dlsym(RTLD_NEXT, "__cxa_throw"));
+  next(exception, type, destroy);
+  std::abort();
+}
+
+void report_crashes(const std::filesystem::path& file, std::string_view work) {
+  copy_line(crash_line, fmt::format("quadrille: {}: {} this file crashed: it may be damaged\n",
+                                    printable(file.string()), work));
+  give_handlers_a_stack();
+  prepare_threads(give_handlers_a_stack);
+}
+
+#endif
 
 }  // namespace quadrille::command

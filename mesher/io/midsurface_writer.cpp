@@ -26,12 +26,14 @@ constexpr std::array<std::string_view, 5> endings{".brep", ".brp", ".step", ".st
 
 std::string brep_text(const TopoDS_Shape& shape) {
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // a stream that finds no memory would be silent
   BRepTools::Write(shape, text);
   return text.str();
 }
 
 std::string step_text(const TopoDS_Shape& shape, const std::string& name) {
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // a stream that finds no memory would be silent
   const std::string problem = Module("quadrille_step").function<ExchangeWriteFunction>("_write")(shape, text);
   if (!problem.empty()) throw failure(name, fmt::format("{}: cannot be written as STEP: {}", name, problem));
   return text.str();
