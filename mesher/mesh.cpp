@@ -32,6 +32,7 @@
 #include "mesher/faces/boundary_crossings.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
+#include "mesher/shell/area_check.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "mesher/shell/last_resort.hpp"
@@ -388,6 +389,9 @@ class Job {
       for (const CadWire& wire : shape_.faces[face].wires) {
         for (const Coedge& coedge : wire.coedges) of_failed[coedge.edge] = 1;
       }
+    }
+    for (const EdgeId edge : of_failed.ids()) {
+      if (of_failed[edge]) plan_.factor[edge] = 1;
     }
     std::erase_if(plan_.finer, [&](const EdgeStretch& part) { return of_failed[part.edge] != 0; });
     return any;
@@ -791,8 +795,11 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const st
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   ShellMesh result = job.run(field);
   note_off_geometry(result);
-  const std::vector<std::string> defects = shell_defects(model.shape(), faces_used(model, options), result);
-  if (!defects.empty() && !options.partial) throw failure("", fmt::format("{}", fmt::join(defects, "; ")));
+  std::vector<std::string> defects = shell_defects(model.shape(), faces_used(model, options), result);
+  for (const AreaDifference& found : area_differences(model, result))
+    (found.is_certain ? defects : result.warnings).push_back(found.sentence);
+  if (!defects.empty() && !options.partial)
+    throw failure("", fmt::format("{}; `partial` writes the mesh all the same", fmt::join(defects, "; ")));
   result.warnings.insert(result.warnings.end(), defects.begin(), defects.end());
   if (options.inspect) options.inspect(result, field);
   return result;

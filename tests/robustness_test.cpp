@@ -440,7 +440,7 @@ TEST(Robustness, WarnsOfAreasThatFlatElementsDoNotExplain) {
   // Coarse, and of the right shape.
   for (const char* name : {"seam_and_poles", "rational_torus", "apex", "disc", "hole_across_seam"}) {
     const CadModel model = model_of(trouble_named(name));
-    EXPECT_EQ(joined(area_differences(model, mesh_of(model, 8))), "") << name;
+    EXPECT_TRUE(area_differences(model, mesh_of(model, 8)).empty()) << name;
   }
   // Twice the area, by OpenCASCADE's integration.
   const CadModel model = model_of(trouble_named("false_poles"));
@@ -477,7 +477,7 @@ TEST(Robustness, KeepsTheNumbersOfEdgesThatAreSplit) {
   BRepGProp::LinearProperties(edges(edges.Extent()), rim);
   EXPECT_NEAR(length / rim.Mass(), 1, 0.02);
   EXPECT_GE(count, 30);
-  options.sizing.edge_sizes[edges.Extent()] = 1e-9;
+  options.sizing.edge_sizes[edges.Extent()] = 1e-6;
   try {
     mesh(model, options, context);
     ADD_FAILURE() << "the segments are not refused";

@@ -117,7 +117,6 @@ void warn_off_geometry(const ShellMesh& mesh, std::vector<std::string>& warnings
 
 struct Measured {
   MeshMeasures elements;
-  std::vector<std::string> area_differences;
   Coincidences coincidences;
   Contacts contacts;
   std::vector<int> bad_skins;  ///< faces, see faces_with_bad_skins()
@@ -145,7 +144,6 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
           [&] {
             if (with_volumes) measured.volumes = volumes(model, mesh);
           },
-          [&] { measured.area_differences = area_differences(model, mesh); },
           [&] { measured.elements = measure(mesh); },
           [&] { measured.bad_skins = faces_with_bad_skins(mesh); });
       return measured;
@@ -210,8 +208,10 @@ void tell_poor_quads(const ShellMesh& mesh) {
   int quads = 0;
   for (const auto& found : mesh.poor_quads) quads += found.quads;
   const auto& most = mesh.poor_quads.front();
-  say("note: {} quads are outside the usual limits, most of them at {}{} ({}): {}; --report lists all", quads,
-      most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+  say("note: {} quads are outside the usual limits (warp is not counted) or have sides under half the least "
+      "size, "
+      "most of them at {}{} ({}): {}; --report lists all",
+      quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
 }
 
 /// Writes the report, the warnings to stderr and the tables to stdout, if requested.
@@ -224,7 +224,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
   }
   for (const std::string& warning : result.warnings) warnings.push_back(with_options(warning));
   warn_off_geometry(result, warnings);
-  warnings.insert(warnings.end(), measured.area_differences.begin(), measured.area_differences.end());
   const std::set<std::string_view> tried = tried_settings(arguments.settings);
   for (const std::string& sentence :
        {measured.coincidences.sentence(tried), measured.contacts.sentence(tried)})

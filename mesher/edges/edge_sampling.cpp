@@ -178,6 +178,8 @@ class EdgeSampler {
       }
       double& wanted = targets_.wanted[i];
       wanted = tables_[i].total() / result_.stride;
+      // An edge has at least one segment, which the factor multiplies.
+      if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
       segments += result_.stride * wanted;
       hold_segments(segments, field_.budget(), edge);
@@ -289,7 +291,7 @@ class EdgeSampler {
     if (heads == plan_.rows.heads.end()) return;
     const auto [from, to] = counts_between(i, heads->second);
     const int own = heads->second.segments(), least = own + 1;
-    targets_.wanted[i] = (own + std::max(1.0, to - from)) / result_.stride;
+    targets_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / result_.stride;
     targets_.least[i] = std::max(targets_.least[i], (least + result_.stride - 1) / result_.stride);
     targets_.least_of_grids[i] = std::max(targets_.least_of_grids[i], least);
   }
@@ -465,7 +467,8 @@ class EdgeSampler {
 }  // namespace
 
 SamplingPlan::SamplingPlan(const CadShape& shape)
-    : ignore_curvature(shape.edges.size()),
+    : factor(shape.edges.size(), 1),
+      ignore_curvature(shape.edges.size()),
       unaligned(shape.faces.size()),
       subdivided(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}

@@ -85,6 +85,7 @@ struct EdgeStretch {
 /// users divide edges.
 struct SamplingPlan {
   explicit SamplingPlan(const CadShape& shape);  ///< by the sizing field alone
+  IdVector<EdgeId, int> factor;                  ///< multiplies the number of segments
   std::vector<EdgeStretch> finer;
   EdgeFlags ignore_curvature;  ///< 1 = ignore how the curve turns, it may have loops
   FaceFlags unaligned;         ///< 1 = nodes need not face each other across the face's gaps

@@ -110,9 +110,9 @@ class FlatLoss {
 };
 
 /// The area of a CAD face: of a plane one by its outline, which is a tenth of the work, else by OpenCASCADE.
-double cad_area(const CadShape& shape, FaceId id) {
+double cad_area(const CadShape& shape, FaceId id, bool is_plane) {
   const CadFace& face = shape.faces[id];
-  if (!FaceSurface(face).planar()) {
+  if (!is_plane) {
     GProp_GProps properties;
     BRepGProp::SurfaceProperties(face.face, properties);
     return std::abs(properties.Mass());
@@ -162,7 +162,7 @@ double cad_volume(const CadShape& shape) {
 
 }  // namespace
 
-std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh) {
+std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh) {
   constexpr double largest = 0.03, of_loss = 2;
   const CadShape& shape = model.shape();
   IdVector<FaceId, double> areas(shape.faces.size());
@@ -170,11 +170,13 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
     areas[FaceId::from_number(mesh.quad_faces[i])] += quad_area_vector(mesh.points, mesh.quads[i]).norm();
   const JoinedFaces joined(mesh);
   IdVector<FaceId, double> integrals(areas.size());
+  FaceFlags planes(areas.size());
   for_each_id(areas, [&](FaceId face) {
     integrals[face] = areas[face];
     if (!(areas[face] > 0) && !joined.contains(face.number())) return;
     try {
-      integrals[face] = cad_area(shape, face);
+      planes[face] = FaceSurface(shape.faces[face]).planar();
+      integrals[face] = cad_area(shape, face, planes[face] != 0);
     } catch (const Standard_Failure&) {
       return;  // no integral to compare with
     }
@@ -192,7 +194,7 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   FaceFlags differ(areas.size());
   for (const FaceId face : areas.ids())
     differ[face] = difference(first(face)) > largest * integrals[first(face)];
-  std::vector<std::string> result;
+  std::vector<AreaDifference> result;
   if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
   const FlatLoss loss(shape, mesh, differ);
   IdVector<FaceId, double> losses(areas.size());
@@ -201,15 +203,19 @@ std::vector<std::string> area_differences(const CadModel& model, const ShellMesh
   IdVector<FaceId, double> shifts(areas.size());
   for (const CadEdge& edge : shape.edges)
     for (const FaceId face : edge.faces) shifts[first(face)] += 0.5 * mesh.size_min * edge.length;
+  constexpr double large = 0.01;
+  const double whole = std::accumulate(integrals.begin(), integrals.end(), 0.0);
   for (const FaceId face : areas.ids()) {
     if (!differ[face] ||
         difference(face) <= largest * integrals[face] + of_loss * losses[face] + shifts[face])
       continue;
-    result.push_back(fmt::format(
-        "Face{}{} has an area of {} in the mesh and of {} by OpenCASCADE's integration: the size may be too "
-        "coarse for its shape, or the file or the integral may be wrong",
-        face.number(), joined.contains(face.number()) ? " with the faces that share quads with it" : "",
-        number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])));
+    result.push_back(
+        {fmt::format("Face{}{} has an area of {} in the mesh and of {} in the CAD model: the size may be too "
+                     "coarse for its shape, or the file or the integral may be wrong",
+                     face.number(),
+                     joined.contains(face.number()) ? " with the faces that share quads with it" : "",
+                     number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])),
+         planes[face] && !joined.contains(face.number()) && difference(face) > large * whole});
   }
   return result;
 }

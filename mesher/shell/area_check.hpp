@@ -10,11 +10,19 @@
 
 namespace quadrille {
 
-/// One sentence for each meshed face, or for faces that share quads, whose quads differ in area from the
-/// integral over the CAD face. The tolerance is 3 % plus twice the area that flat elements with straight
-/// sides lose. If it is exceeded, the size is too coarse for the shape, the file contradicts itself, or the
-/// integral is wrong. Takes about a tenth of a millisecond per face, and more on splines.
-std::vector<std::string> area_differences(const CadModel& model, const ShellMesh& mesh);
+/// A face whose quads differ in area from the CAD face by more than they may.
+struct AreaDifference {
+  std::string sentence;  ///< names the face, or faces that share quads, and tells both areas
+  /// A plane face differs by over 1 % of the whole model's area: the mesh is wrong. On other surfaces
+  /// OpenCASCADE's integral may be, by a factor in some files.
+  bool is_certain = false;
+};
+
+/// Compares the quads of each meshed face, or of faces that share quads, with the CAD face. They may differ
+/// by 3 %, by twice the area that flat elements with straight sides lose, and by a strip as wide as what is
+/// suppressed along all its edges. Beyond that the size is too coarse for the shape, the file contradicts
+/// itself, or the integral is wrong. Takes about a tenth of a millisecond per face, and more on splines.
+std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh);
 
 /// Volumes of solids, model units cubed.
 struct Volumes {

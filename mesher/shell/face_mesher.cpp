@@ -206,7 +206,7 @@ class FaceMesher {
   FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     const StageTimer timer(context_, Stage::triangulate);
     PlacementOptions placement;
-    placement.scale = boundary.stride;
+    placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
     PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
     context_.check();
     return triangulate_face(face_, boundary, std::move(placed), surface_, context_);

@@ -13,10 +13,11 @@ namespace quadrille {
 
 /// How a face is meshed.
 struct FaceRecipe {
-  ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
-  bool mapped = true;                           ///< mesh the face as a grid if its outline allows
-  bool clean_up = true;                         ///< do topological clean-up
-  bool pair = true;                             ///< pair the triangles; else each becomes three quads
+  ChartKind chart = ChartKind::own;  ///< plane that the face is triangulated in
+  bool mapped = true;                ///< mesh the face as a grid if its outline allows
+  bool clean_up = true;              ///< do topological clean-up
+  int fineness = 1;                  ///< divides the spacing of inner points
+  bool pair = true;                  ///< pair the triangles; else each becomes three quads
   double reach = 0;           ///< how far nodes of inverted quads may leave the surface, as a last resort
   bool inverted_too = false;  ///< also return a mesh that keeps inverted quads
 };

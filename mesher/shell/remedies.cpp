@@ -33,6 +33,16 @@ bool finer_there(Case& job) {
   return true;
 }
 
+/// Doubles the fineness of segments and points on the whole face, whose curvature is too much for its size.
+bool twice_as_fine(Case& job) {
+  SamplingPlan& plan = job.plan;
+  job.record.recipe = {.chart = job.record.recipe.chart, .fineness = 2 * job.record.recipe.fineness};
+  for (const CadWire& wire : job.shape.faces[job.face].wires)
+    for (const Coedge& coedge : wire.coedges)
+      plan.factor[coedge.edge] = std::max(plan.factor[coedge.edge], job.record.recipe.fineness);
+  return true;
+}
+
 bool along_chord(Case& job) {
   bool any = false;
   for (const EdgeId edge : job.problem.edges) {
@@ -94,6 +104,7 @@ constexpr std::array table{
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
         "parametric curves recreated by projection", 1, with_curves_made_anew},
+    Row{any_of({Cause::inverted}), "the whole face twice as fine", 3, twice_as_fine},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted}),
         "seen from above", 1, seen_from_above},

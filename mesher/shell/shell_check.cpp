@@ -155,8 +155,7 @@ class ShellCheck {
     return lines_;
   }
 
-  /// Quads may cross a part of a smooth edge, and a slit in a face may be cut by others: those count as
-  /// pieces.
+  /// An edge that the model has in pieces, such as a seam under a hole, may have as many chains.
   void find_broken_chains() {
     std::map<int, int> balance;  // edges that are not crossed: segments less nodes
     std::map<int, std::set<int>> nodes;
@@ -166,9 +165,11 @@ class ShellCheck {
       ++balance[segment.edge];
     }
     for (const ShellMesh::CrossedEdge& crossed : mesh_.crossed_edges) balance.erase(crossed.edge);
+    std::map<int, int> pieces;
+    for (const CadEdge& edge : shape_.edges) pieces[edge.number] += !edge.faces.empty();
     for (const auto& [edge, segments] : balance) {
       const int chains = static_cast<int>(nodes[edge].size()) - segments;  // a loop counts as none
-      if (chains <= 1) continue;
+      if (chains <= std::max(1, pieces[edge])) continue;
       defects_.push_back(fmt::format("the nodes on Edge{} form {} chains in place of one, near {}", edge,
                                      chains, place_text(mesh_.points[*nodes[edge].begin()])));
       return;

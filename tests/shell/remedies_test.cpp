@@ -19,12 +19,13 @@ namespace {
 constexpr int causes = static_cast<int>(Cause::out_of_time) + 1;
 
 auto text_of(const FaceRecipe& r) {
-  return std::tuple(r.chart, r.mapped, r.clean_up, r.pair);
+  return std::tuple(r.chart, r.mapped, r.clean_up, r.fineness, r.pair);
 }
 
 auto text_of(const SamplingPlan& p) {
   const auto list = [](const auto& values) { return std::vector<int>(values.begin(), values.end()); };
-  return std::tuple(list(p.ignore_curvature), list(p.unaligned), list(p.subdivided), p.finer.size());
+  return std::tuple(list(p.factor), list(p.ignore_curvature), list(p.unaligned), list(p.subdivided),
+                    p.finer.size());
 }
 
 class Remedies : public testing::Test {
@@ -88,6 +89,21 @@ TEST_F(Remedies, ComeInTheOrderOfTheTable) {
   EXPECT_EQ(all(Cause::unusable_boundary, true),
             (std::vector<std::string>{"it failed: parametric curves recreated by projection",
                                       "it failed: seen from above"}));
+}
+
+TEST_F(Remedies, DoubleTheFinenessEachTime) {
+  FaceRecord record;
+  SamplingPlan plan(shape);
+  const FaceProblem failed = problem(Cause::inverted, true);
+  int wanted = 1;
+  while (apply_remedy(shape, failed, record, plan)) {
+    if (record.history.back() != "it failed: the whole face twice as fine") continue;
+    wanted *= 2;
+    EXPECT_EQ(record.recipe.fineness, wanted);
+    for (const EdgeId edge : shape.edges.ids())
+      EXPECT_EQ(plan.factor[edge], own_edges().contains(edge) ? wanted : 1);
+  }
+  EXPECT_EQ(wanted, 8);
 }
 
 TEST_F(Remedies, StopAfterTheMostAttempts) {

@@ -87,7 +87,10 @@ TEST(ShellCheck, AGapBesideAFreeEdgeIsNoFreeEdge) {
       continue;
     sheet.shell = whole;
     sheet.drop([&](std::size_t i) { return i == quad; });
-    EXPECT_NE(sheet.defects().find("not as tight"), std::string::npos) << quad << " at " << whole.points[corners[0]].transpose() << ", " << whole.points[corners[1]].transpose() << ", " << whole.points[corners[2]].transpose() << ", " << whole.points[corners[3]].transpose();
+    EXPECT_NE(sheet.defects().find("not as tight"), std::string::npos)
+        << quad << " at " << whole.points[corners[0]].transpose() << ", "
+        << whole.points[corners[1]].transpose() << ", " << whole.points[corners[2]].transpose() << ", "
+        << whole.points[corners[3]].transpose();
   }
 }
 
