@@ -77,6 +77,8 @@ class Job {
         records_(shape_.faces.size()),
         asked_(used_),
         suppressed_(shape_, asked_, suppression_reach(limits_, options), edges_that_stay(), held_vertices()) {
+    constexpr double far_below = 0.02;
+    plan_.shortest_segment = far_below * limits_.size_min;
     if (options_.strategy == Strategy::subdivide) plan_.subdivided.assign(shape_.faces.size(), 1);
     plan_.matched = matches_.edges;
     plan_.prescribed = prescribed_edges(shape_, options.sizing, limits_.largest);

@@ -173,7 +173,7 @@ class EdgeSampler {
       bool is_finer = false;
       for (const EdgeStretch& part : plan_.finer) {
         if (part.edge != i) continue;
-        tables_[i].make_finer(part.from, part.to, part.segments * stride);
+        tables_[i].make_finer(part.from, part.to, std::min(part.segments * stride, most_segments(part)));
         is_finer = true;
       }
       double& wanted = targets_.wanted[i];
@@ -279,6 +279,14 @@ class EdgeSampler {
     known_->resize(n_);
     if ((*known_)[id].counts.empty()) (*known_)[id] = make();
     return (*known_)[id];
+  }
+
+  /// How many segments a remedy may ask for on a part of an edge.
+  int most_segments(const EdgeStretch& part) const {
+    const CadEdge& edge = shape_.edges[part.edge];
+    const double length = edge.length * (part.to - part.from) / (edge.last - edge.first);
+    return plan_.shortest_segment > 0 ? std::max(2, to_int(std::ceil(length / plan_.shortest_segment)))
+                                      : std::numeric_limits<int>::max();
   }
 
   bool is_prescribed(EdgeId edge) const {

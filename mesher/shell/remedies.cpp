@@ -104,10 +104,10 @@ constexpr std::array table{
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
         "parametric curves recreated by projection", 1, with_curves_made_anew},
-    Row{any_of({Cause::inverted}), "the whole face twice as fine", 3, twice_as_fine},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted}),
         "seen from above", 1, seen_from_above},
+    Row{any_of({Cause::inverted}), "the whole face twice as fine", 3, twice_as_fine},
 };
 
 }  // namespace
