@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/base/rows.hpp"
+#include "geometry/base/vector.hpp"
 
 namespace quadrille {
 
@@ -79,6 +80,27 @@ void for_each_shared_side(std::size_t nodes, Check check, Visit&& visit, const L
       group.clear();
     }
   }
+}
+
+/// The sides of only one element: how many there are, and how long they are together.
+struct Rim {
+  int sides = 0;
+  double length = 0;
+};
+
+/// \param lists of elements as arrays of their nodes
+template <class... Lists>
+Rim rim_of(const std::vector<Vector3>& points, const Lists&... lists) {
+  Rim rim;
+  for_each_shared_side(
+      points.size(), no_check,
+      [&](int low, int high, std::span<const Side> sides) {
+        if (sides.size() != 1) return;
+        ++rim.sides;
+        rim.length += (points[high] - points[low]).norm();
+      },
+      lists...);
+  return rim;
 }
 
 }  // namespace quadrille

@@ -25,6 +25,7 @@
 #include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/side_twins.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quads/face_quads.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
@@ -172,6 +173,11 @@ class Remesher : public ShellGeometry {
     ShellMesh mesh = assemble(*this, nodes_, quads_, options_.order, context_);
     const StageTimer timer(context_, Stage::assemble);
     check_inverted(mesh);
+    if (rim_of(surface_.mesh.points, surface_.mesh.triangles).sides == 0)
+      if (const int open = rim_of(mesh.points, mesh.quads).sides; open > 0)
+        throw failure(
+            "",
+            fmt::format("the surface is closed, but {} sides of the mesh are open: use another size", open));
     tell_straight_sides(mesh);
     if (fidelity != nullptr) {
       *fidelity = measure_fidelity(surface_.mesh, network_.patches, *locator_, mesh, patch_of_face_);

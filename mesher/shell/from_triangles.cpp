@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/place_text.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
@@ -157,6 +160,18 @@ void keep_sides_and_corners(const ShellMesh& input, const TriangleInput& work, c
   }
 }
 
+/// Throws Error (failure) unless the quads are as tight as the triangles: pairing moves no node on a rim.
+void check_rim(const TriangleMesh& triangles, const ShellMesh& shell) {
+  const Rim before = rim_of(triangles.points, triangles.triangles);
+  const Rim after = rim_of(shell.points, shell.quads, shell.triangles);
+  constexpr double rounding = 1e-6;
+  if (after.sides != before.sides || std::abs(after.length - before.length) > rounding * before.length)
+    throw failure(
+        "", fmt::format("the quads have {} open sides, {} mm long, where the triangles have {}, {} mm "
+                        "long",
+                        after.sides, number_text(after.length), before.sides, number_text(before.length)));
+}
+
 }  // namespace
 
 ShellMesh quads_from_triangles(const ShellMesh& input, const FromTrianglesOptions& options,
@@ -185,6 +200,7 @@ ShellMesh quads_from_triangles(const ShellMesh& input, const FromTrianglesOption
   ResultPoints points(quads, surface, renumbered);
   for (const auto& quad : quads.quads) shell.quads.push_back(points(quad, shell.points));
   for (const auto& triangle : quads.triangles) shell.triangles.push_back(points(triangle, shell.points));
+  check_rim(work.mesh, shell);
   for (const int piece : quads.quad_tags) shell.quad_faces.push_back(face_of_piece[piece]);
   for (const int piece : quads.triangle_tags) shell.triangle_faces.push_back(face_of_piece[piece]);
   keep_sides_and_corners(input, work, points, shell);
