@@ -1,10 +1,12 @@
 #pragma once
-/// The sizing field of a run, and the nodes on edges between which it meshes the faces. Internal.
+/// The model that a run meshes, its sizing field, and the nodes on edges between which it meshes the faces.
+/// Internal.
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/simplified_model.hpp"
 #include "mesher/options.hpp"
 
 namespace quadrille {
@@ -17,6 +19,11 @@ struct SettledBoundary {
 
 /// 1 = the options ask for this face to be meshed.
 FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
+
+/// The model that is meshed: with options.fill_holes small holes are filled, and without
+/// options.keep_features coplanar faces are joined, unless options.faces names those to mesh.
+/// \param joins faces may be joined
+SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bool joins = true);
 
 /// The sizing field that mesh() uses: suppressed features request no sizes. Call it within on_threads().
 /// Throws Error as mesh() does for invalid options or sizes that exceed the budget.

@@ -15,7 +15,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/boundary.hpp"
-#include "mesher/edges/hole_filling.hpp"
 #include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
 
@@ -114,10 +113,14 @@ double QuadEstimate::quads(const MeshOptions& options) {
 
 std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
   check({options, {}}, model_);
-  const FilledModel filled =
-      fill_holes(model_, faces_used(model_, options), options.sizing, options.fill_holes);
-  const CadShape& shape = filled.model.shape();
-  const FaceFlags used = filled.left(faces_used(model_, options));
+  const SimplifiedModel simple = simplified(model_, options);
+  const CadShape& shape = simple.model.shape();
+  const FaceFlags used = simple.left(faces_used(model_, options));
+  FaceSamples samples = samples_;
+  for (const FaceId id : samples.ids()) {
+    const FaceId whole = simple.taken_by[id];
+    if (whole.exists()) samples[whole].insert(samples[whole].end(), samples_[id].begin(), samples_[id].end());
+  }
   return on_threads(context_.threads(), [&] {
     const SettledBoundary boundary = settle_boundary(model_, options, context_);
     std::vector<double> counts(shape.faces.size(), 0);
@@ -129,7 +132,7 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const FacePlan& plan = nodes.plans[id];
       counts[id.index()] = quads_of_rows(id, nodes);
       counts[id.index()] +=
-          expected_quads(demand_of(id, face, samples_[id], size_at, options.sizing.growth, nodes),
+          expected_quads(demand_of(id, face, samples[id], size_at, options.sizing.growth, nodes),
                          plan.grid_quads, plan.has_kept_edge || plan.has_divided_edge);
     }
     return counts;

@@ -22,6 +22,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/boundary.hpp"
+#include "mesher/edges/coplanar_faces.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
@@ -51,21 +52,31 @@ FaceFlags faces_used(const CadModel& model, const MeshOptions& options) {
   return used;
 }
 
+SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bool joins) {
+  const FaceFlags used = faces_used(model, options);
+  SimplifiedModel result = fill_holes(model, used, options.sizing, options.fill_holes);
+  if (joins && !options.keep_features && options.faces.empty())
+    join_coplanar_faces(result, used, options.sizing, size_limits(model, options.sizing));
+  return result;
+}
+
 namespace {
 
 class Job {
  public:
   /// \param divides divide edges at slivers: edges and vertices then differ from the model's
-  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true)
+  /// \param joins coplanar faces may be joined
+  Job(const CadModel& model, const MeshOptions& options, ExecutionContext& context, bool divides = true,
+      bool joins = true)
       : options_(with_matches_kept(options)),
         vertices_(model.vertex_count()),
-        filled_(fill_holes(model, faces_used(model, options), options_.sizing, options.fill_holes)),
-        used_(filled_.left(faces_used(model, options))),
+        simplified_(simplified(model, options_, joins)),
+        used_(simplified_.left(faces_used(model, options))),
         limits_(size_limits(model, options.sizing)),
-        placed_(divides ? place_nodes(filled_.model.shape(), used_, options.sizing, limits_.largest)
+        placed_(divides ? place_nodes(simplified_.model.shape(), used_, options.sizing, limits_.largest)
                         : PlacedNodes()),
-        model_(divides ? divided(placed_.shape ? CadModel(placed_.shape) : filled_.model, used_, options)
-                       : filled_.model),
+        model_(divides ? divided(placed_.shape ? CadModel(placed_.shape) : simplified_.model, used_, options)
+                       : simplified_.model),
         shape_(model_.shape()),
         matches_(find_matches(shape_, options.sizing.matches, used_)),
         context_(context),
@@ -139,7 +150,8 @@ class Job {
     result.kept = list_kept();
     for (const auto& [edge, why] : plan_.rows.without)
       result.warnings.push_back(fmt::format("`layers` on Edge{} give sizes but no rows: {}", edge, why));
-    result.filled_holes = filled_.holes;
+    result.filled_holes = simplified_.holes;
+    result.crossed_edges = simplified_.inner;
     for (const EdgeId id : crossed_) {
       constexpr int pieces = 32;
       const CadEdge& edge = shape_.edges[id];
@@ -158,7 +170,7 @@ class Job {
   }
 
   SmallFeatures small_features() const {
-    SmallFeatures result{list_suppressed(), {}, list_kept(), filled_.holes};
+    SmallFeatures result{list_suppressed(), {}, list_kept(), simplified_.holes};
     for (const FaceId face : asked_.ids())
       if (asked_[face] && plan_.tiny.merged_faces[face]) result.faces.push_back(face.number());
     return result;
@@ -220,8 +232,7 @@ class Job {
     EdgeFlags result(shape_.edges.size(), options_.keep_features ? 1 : 0);
     for (const EdgeId id : result.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      result[id] |= is_kept(edge) || ends_at_placed(edge) || sizing.edge_sizes.contains(edge.number) ||
-                    sizing.layers.edges.contains(edge.number) || sizing.spacings.contains(edge.number) ||
+      result[id] |= is_kept(edge) || ends_at_placed(edge) || sizing.names_edge(edge.number) ||
                     uncrossed.contains(edge.number);
     }
     return result;
@@ -422,7 +433,7 @@ class Job {
   void leave_out_tiny() {
     TinyFeatures& tiny = plan_.tiny;
     tiny = suppressed_.find(options_.merge_tiny);
-    for (const FaceId face : filled_.gone.ids()) tiny.merged_faces[face] |= filled_.gone[face];
+    for (const FaceId face : simplified_.gone.ids()) tiny.merged_faces[face] |= simplified_.gone[face];
     for (const FaceId face : used_.ids()) {
       used_[face] = asked_[face] && !tiny.merged_faces[face];
       if (!used_[face]) problems_[face].reset();
@@ -726,6 +737,12 @@ class Job {
     return result;
   }
 
+  std::string why_merged(FaceId face) const {
+    if (!simplified_.gone[face]) return "tiny: replaced by an edge or a node of its neighbors";
+    const FaceId other = simplified_.taken_by[face];
+    return other.exists() ? fmt::format("joined with Face{}: coplanar", other.number()) : "in a filled hole";
+  }
+
   std::vector<ShellMesh::Face> statuses() const {
     std::vector<ShellMesh::Face> result(shape_.faces.size());
     for (const FaceId face : shape_.faces.ids()) {
@@ -747,10 +764,9 @@ class Job {
                                    status.note.empty() ? "" : "; ");
       if (plan_.tiny.merged_faces[face]) {
         status.status = FaceStatus::merged;
-        status.note =
-            filled_.gone[face] ? "in a filled hole" : "tiny: replaced by an edge or a node of its neighbors";
+        status.note = why_merged(face);
       }
-      status.filled_area = filled_.areas[face];
+      status.filled_area = simplified_.areas[face];
       if (meshes_[face] && meshes_[face]->quads.empty()) {
         status.status = FaceStatus::merged;
         status.note = "crossed: covered by quads whose centers lie on its neighbors";
@@ -765,7 +781,7 @@ class Job {
 
   const MeshOptions options_;
   int vertices_;  // of the model; the others divide edges or are placed inside faces
-  FilledModel filled_;
+  SimplifiedModel simplified_;
   FaceFlags used_;
   SizeLimits limits_;
   PlacedNodes placed_;
@@ -788,11 +804,28 @@ class Job {
   SuppressedFeatures suppressed_;
 };
 
-/// \param uncrossed numbers of edges that no quad may cross
-ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const std::set<int>& uncrossed,
+/// Edges between faces of unlike thickness, and at steps. No quad may belong to both sides.
+std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
+  std::set<int> result;
+  const auto differ = [&](const MiddleFace& a, const MiddleFace& b) {
+    constexpr double same = 1e-6;
+    return a.step != b.step || varies(a) || varies(b) ||
+           std::abs(a.thickness - b.thickness) > same * std::max(a.thickness, b.thickness);
+  };
+  for (const CadEdge& edge : middle.model.shape().edges) {
+    for (const FaceId face : edge.faces)
+      if (differ(middle.faces[edge.faces.front().index()], middle.faces[face.index()]))
+        result.insert(edge.number);
+  }
+  return result;
+}
+
+/// \param middle what the model is the middle surface of, if any: its faces belong to faces of a solid, and
+/// are not joined
+ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const MidSurface* middle,
                      ExecutionContext& context) {
-  Job job(model, options, context);
-  job.uncrossed = uncrossed;
+  Job job(model, options, context, true, middle == nullptr);
+  if (middle != nullptr) job.uncrossed = edges_where_thickness_changes(*middle);
   const SizingField field = job.build_field();
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   ShellMesh result = job.run(field);
@@ -818,7 +851,7 @@ void check_input(const CadModel& model, const MeshOptions& options) {
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   check_input(model, options);
-  return on_threads(context.threads(), [&] { return mesh_whole(model, options, {}, context); });
+  return on_threads(context.threads(), [&] { return mesh_whole(model, options, nullptr, context); });
 }
 
 SmallFeatures small_features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
@@ -851,22 +884,6 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
   return nodes;
 }
 
-/// Edges between faces of unlike thickness, and at steps. No quad may belong to both sides.
-std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
-  std::set<int> result;
-  const auto differ = [&](const MiddleFace& a, const MiddleFace& b) {
-    constexpr double same = 1e-6;
-    return a.step != b.step || varies(a) || varies(b) ||
-           std::abs(a.thickness - b.thickness) > same * std::max(a.thickness, b.thickness);
-  };
-  for (const CadEdge& edge : middle.model.shape().edges) {
-    for (const FaceId face : edge.faces)
-      if (differ(middle.faces[edge.faces.front().index()], middle.faces[face.index()]))
-        result.insert(edge.number);
-  }
-  return result;
-}
-
 /// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
 /// were meant for that face.
 std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
@@ -891,9 +908,8 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
 
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
   check_input(middle.model, options);
-  ShellMesh result = on_threads(context.threads(), [&] {
-    return mesh_whole(middle.model, options, edges_where_thickness_changes(middle), context);
-  });
+  ShellMesh result =
+      on_threads(context.threads(), [&] { return mesh_whole(middle.model, options, &middle, context); });
   result.solid_faces = groups_of_solid_faces(middle);
   for (const MiddleFace& face : middle.faces) {
     result.thicknesses.push_back(face.thickness);

@@ -121,6 +121,20 @@ struct SizingOptions {
   double size_field_unit = 1;                ///< millimeters per unit of length in it (positions and sizes)
   std::filesystem::path size_points;         ///< .csv with lines x,y,z,size; empty = none
   Budget budget;                             ///< limits of the run
+
+  /// Whether a setting names the CAD face. \param face its number, from 1
+  bool names_face(int face) const {
+    return face_sizes.contains(face) || layers.faces.contains(face) || kept_faces.contains(face);
+  }
+  /// Whether a setting names the CAD edge. \param edge its number, from 1
+  bool names_edge(int edge) const {
+    return edge_sizes.contains(edge) || layers.edges.contains(edge) || spacings.contains(edge) ||
+           kept_edges.contains(edge);
+  }
+  /// Whether a setting names the CAD vertex. \param vertex its number, from 1
+  bool names_vertex(int vertex) const {
+    return vertex_sizes.contains(vertex) || layers.vertices.contains(vertex);
+  }
 };
 
 }  // namespace quadrille

@@ -47,10 +47,14 @@ struct Hole {
 
 class HoleFinder {
  public:
-  HoleFinder(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing, double diameter)
-      : shape_(shape), used_(used), sizing_(sizing), diameter_(diameter), loop_of_(shape.edges.size(), none) {
-    for (const FaceId face : used.ids())
-      if (used[face]) find_loops(face);
+  HoleFinder(const CadShape& shape, FaceFlags used, const SizingOptions& sizing, double diameter)
+      : shape_(shape),
+        used_(std::move(used)),
+        sizing_(sizing),
+        diameter_(diameter),
+        loop_of_(shape.edges.size(), none) {
+    for (const FaceId face : used_.ids())
+      if (used_[face]) find_loops(face);
   }
 
   const Loop& loop(std::size_t index) const { return loops_[index]; }
@@ -144,15 +148,13 @@ class HoleFinder {
 
   /// Whether users name the edge or one of its vertices.
   bool stays(const CadEdge& edge) const {
-    return sizing_.edge_sizes.contains(edge.number) || sizing_.layers.edges.contains(edge.number) ||
-           sizing_.spacings.contains(edge.number) || sizing_.kept_edges.contains(edge.number) ||
-           sizing_.vertex_sizes.contains(edge.first_vertex.number()) ||
-           sizing_.vertex_sizes.contains(edge.last_vertex.number());
+    return sizing_.names_edge(edge.number) || sizing_.names_vertex(edge.first_vertex.number()) ||
+           sizing_.names_vertex(edge.last_vertex.number());
   }
 
   bool stays(FaceId face) const {
     const auto& wires = shape_.faces[face].wires;
-    return sizing_.face_sizes.contains(face.number()) || sizing_.kept_faces.contains(face.number()) ||
+    return sizing_.names_face(face.number()) ||
            std::any_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
              return std::any_of(wire.coedges.begin(), wire.coedges.end(),
                                 [&](const Coedge& c) { return stays(shape_.edges[c.edge]); });
@@ -225,7 +227,7 @@ class HoleFinder {
   }
 
   const CadShape& shape_;
-  const FaceFlags& used_;
+  FaceFlags used_;
   const SizingOptions& sizing_;
   double diameter_;
   std::vector<Loop> loops_;
@@ -235,8 +237,8 @@ class HoleFinder {
 /// Makes a shape in which holes are missing.
 class Filler {
  public:
-  explicit Filler(const CadShape& shape)
-      : shape_(std::make_shared<CadShape>(shape)), gone_(shape.faces.size()), areas_(shape.faces.size()) {}
+  explicit Filler(const CadModel& model)
+      : shape_(std::make_shared<CadShape>(model.shape())), result_(CadModel(shape_)) {}
 
   void fill(const HoleFinder& finder, const std::vector<Hole>& holes) {
     std::map<FaceId, std::set<std::size_t>> wires;  // to be left out, by host
@@ -254,30 +256,31 @@ class Filler {
       for (const FaceId face : hole.faces) leave_out(face, filled);
       std::sort(filled.in.begin(), filled.in.end());
       std::sort(filled.faces.begin(), filled.faces.end());
-      holes_.push_back(std::move(filled));
+      result_.holes.push_back(std::move(filled));
     }
     for (const auto& [host, which] : wires) close(host, which);
   }
 
-  FilledModel result() {
-    std::stable_sort(holes_.begin(), holes_.end(), [](const auto& a, const auto& b) { return a.in < b.in; });
-    return {CadModel(shape_), std::move(gone_), std::move(holes_), std::move(areas_)};
+  SimplifiedModel result() {
+    std::stable_sort(result_.holes.begin(), result_.holes.end(),
+                     [](const auto& a, const auto& b) { return a.in < b.in; });
+    return std::move(result_);
   }
 
   const CadShape& shape() const { return *shape_; }
-  const FaceFlags& gone() const { return gone_; }
+  FaceFlags left(FaceFlags faces) const { return result_.left(std::move(faces)); }
 
  private:
   /// A hole that was filled in the face before is removed with it.
   void leave_out(FaceId face, ShellMesh::FilledHole& with) {
-    gone_[face] = 1;
+    result_.gone[face] = 1;
     with.faces.push_back(face.number());
-    for (auto& inner : holes_) {
+    for (auto& inner : result_.holes) {
       if (std::erase(inner.in, face.number()) > 0 && inner.in.empty())
         with.faces.insert(with.faces.end(), inner.faces.begin(), inner.faces.end());
     }
-    std::erase_if(holes_, [](const auto& inner) { return inner.in.empty(); });
-    areas_[face] = 0;
+    std::erase_if(result_.holes, [](const auto& inner) { return inner.in.empty(); });
+    result_.areas[face] = 0;
     for (const CadWire& wire : shape_->faces[face].wires) release(wire);
   }
 
@@ -305,7 +308,7 @@ class Filler {
       const TopExp_Explorer edge(wire.Value(), TopAbs_EDGE);
       if (!edge.More() || !gone.Contains(edge.Current())) BRep_Builder().Add(face.face, wire.Value());
     }
-    areas_[host] += area_of(face.face) - area_of(before);
+    result_.areas[host] += area_of(face.face) - area_of(before);
   }
 
   static double area_of(const TopoDS_Face& face) {
@@ -319,28 +322,21 @@ class Filler {
   }
 
   std::shared_ptr<CadShape> shape_;
-  FaceFlags gone_;
-  std::vector<ShellMesh::FilledHole> holes_;
-  IdVector<FaceId, double> areas_;
+  SimplifiedModel result_;  // of the shape
 };
 
 }  // namespace
 
-FilledModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
-                       double diameter) {
+SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                           double diameter) {
   constexpr int most_passes = 8;  // holes inside holes
-  const CadShape& shape = model.shape();
-  if (!(diameter > 0))
-    return {model, FaceFlags(shape.faces.size()), {}, IdVector<FaceId, double>(shape.faces.size())};
-  Filler filler(shape);
-  FaceFlags left = used;
+  if (!(diameter > 0)) return SimplifiedModel(model);
+  Filler filler(model);
   for (int pass = 0; pass < most_passes; ++pass) {
-    const HoleFinder finder(filler.shape(), left, sizing, diameter);
+    const HoleFinder finder(filler.shape(), filler.left(used), sizing, diameter);
     const std::vector<Hole> holes = finder.find();
     if (holes.empty()) break;
     filler.fill(finder, holes);
-    for (const FaceId face : left.ids())
-      if (filler.gone()[face]) left[face] = 0;
   }
   return filler.result();
 }

@@ -96,7 +96,8 @@ struct ShellMesh {
     double distance = 0;        ///< farthest that a point of it lies from that edge or vertex, millimeters
   };
 
-  /// A CAD edge between faces that meet smoothly, or a piece of it, that quads cross: it has no segments.
+  /// A CAD edge between faces that meet smoothly, or a piece of it, that quads cross, or one inside coplanar
+  /// faces that were joined: it has no segments.
   struct CrossedEdge {
     int edge = 0;                ///< its number, from 1
     std::array<int, 2> faces{};  ///< its faces, from 1; quads belong to the one that their center lies on

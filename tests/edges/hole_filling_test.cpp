@@ -48,7 +48,7 @@ CadModel model_of(const TopoDS_Shape& shape) {
   return CadModel(std::make_shared<CadShape>(shape, "part"));
 }
 
-FilledModel without_holes(const TopoDS_Shape& shape, double diameter, const SizingOptions& sizing = {}) {
+SimplifiedModel without_holes(const TopoDS_Shape& shape, double diameter, const SizingOptions& sizing = {}) {
   const CadModel model = model_of(shape);
   return fill_holes(model, FaceFlags(model.face_count(), 1), sizing, diameter);
 }
@@ -121,7 +121,7 @@ TEST(HoleFilling, AHoleInAHoleGoesWithIt) {
   ASSERT_EQ(inner.size(), 1U);
   EXPECT_EQ(inner[0].faces.size(), 1U);
   ASSERT_EQ(both.size(), 2U) << "the small hole still lies in the lower face";
-  const FilledModel result = without_holes(part, 8);
+  const SimplifiedModel result = without_holes(part, 8);
   EXPECT_EQ(std::accumulate(result.gone.begin(), result.gone.end(), 0), 3);
   const ShellMesh mesh = meshed(model_of(part), 8);
   EXPECT_EQ(validate(mesh), std::vector<std::string>{});

@@ -1,0 +1,372 @@
+/// Joins coplanar faces: collects the faces around each one, and makes one outline of theirs.
+
+#include "mesher/edges/coplanar_faces.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "mesher/edges/tiny_features.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A plane face that may be joined with others, or several that are joined.
+struct PlaneFace {
+  Vector3 origin{0, 0, 0};
+  Vector3 normal{0, 0, 0};            // out of the part
+  double area = 0, length = 0;        // of the outline, without holes
+  std::map<VertexId, double> angles;  // inside the face
+
+  /// Of the rectangle with the area and the length of the outline.
+  double width() const {
+    const double half = 0.25 * length;
+    return half - std::sqrt(std::max(0.0, half * half - area));
+  }
+  /// \param shared length of the edges between the two
+  void add(const PlaneFace& other, double shared) {
+    area += other.area;
+    length += other.length - 2 * shared;
+    for (const auto& [vertex, angle] : other.angles) angles[vertex] += angle;
+  }
+};
+
+/// \return the direction of a coedge in the parameter plane, along its wire, at its start or its end
+Vector2 direction(const CadEdge& edge, const Coedge& coedge, bool at_start) {
+  gp_Pnt2d point;
+  gp_Vec2d along;
+  coedge.parametric_curve->D1(at_start == coedge.forward ? edge.first : edge.last, point, along);
+  return (coedge.forward ? 1 : -1) * Vector2(along.X(), along.Y());
+}
+
+/// Finds the faces that may be joined.
+class CoplanarFaces {
+ public:
+  CoplanarFaces(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing,
+                const SizeLimits& limits)
+      : shape_(shape), sizing_(sizing), limits_(limits), planes_(shape.faces.size()) {
+    for (const FaceId face : used.ids())
+      if (used[face]) planes_[face] = plane_of(face);
+  }
+
+  /// The faces to be joined with a face, which comes first. \param taken 1 = not again
+  std::vector<FaceId> around(FaceId first, const FaceFlags& taken) const {
+    Group group;
+    group.members = {first};
+    if (!planes_[first]) return group.members;
+    group.inside = {first};
+    group.whole = *planes_[first];
+    do {
+      grow(group, taken);
+    } while (find_touching(group));
+    return group.members;
+  }
+
+ private:
+  /// Faces that are joined.
+  struct Group {
+    std::vector<FaceId> members;
+    std::set<FaceId> inside;      // the same
+    PlaneFace whole;              // all of them
+    std::set<VertexId> touching;  // where the outline touches itself
+  };
+
+  void grow(Group& group, const FaceFlags& taken) const {
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      const FaceId member = group.members[i];
+      for_each_edge(member, [&](EdgeId edge) {
+        for (const FaceId next : shape_.edges[edge].faces) {
+          if (taken[next] || group.inside.contains(next) || !planes_[next] || stays(edge)) continue;
+          if (!does_harm(edge, group, *planes_[next])) continue;
+          if (!is_in_plane(group.whole, group.members.front(), next)) continue;
+          if (!lie_beside_each_other(edge, member, next) || has_edge_that_stays(next, group.inside)) continue;
+          group.whole.add(*planes_[next], shared_length(next, group.inside));
+          group.inside.insert(next);
+          group.members.push_back(next);
+        }
+      });
+    }
+  }
+
+  /// \return whether there are more such vertices than before
+  bool find_touching(Group& group) const {
+    std::map<VertexId, int> ends;
+    for (const FaceId member : group.members)
+      for_each_edge(member, [&](EdgeId id) {
+        const CadEdge& edge = shape_.edges[id];
+        if (std::all_of(edge.faces.begin(), edge.faces.end(),
+                        [&](FaceId face) { return group.inside.contains(face); }) &&
+            edge.faces.size() == 2)
+          return;
+        ++ends[edge.first_vertex];
+        ++ends[edge.last_vertex];
+      });
+    const std::size_t before = group.touching.size();
+    for (const auto& [vertex, count] : ends)
+      if (count > 2) group.touching.insert(vertex);
+    return group.touching.size() > before;
+  }
+
+  template <class Act>
+  void for_each_edge(FaceId face, Act&& act) const {
+    for (const CadWire& wire : shape_.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges) act(coedge.edge);
+  }
+
+  std::optional<PlaneFace> plane_of(FaceId id) const {
+    const CadFace& face = shape_.faces[id];
+    if (sizing_.names_face(id.number()) || !face.inner_vertices.empty()) return std::nullopt;
+    if (BRep_Tool::Surface(face.face).IsNull()) return std::nullopt;
+    const BRepAdaptor_Surface surface(face.face, false);
+    if (surface.GetType() != GeomAbs_Plane) return std::nullopt;
+    PlaneFace plane;
+    gp_Pnt origin;
+    gp_Vec u, v;
+    surface.D1(0, 0, origin, u, v);
+    plane.origin = to_vector(origin);
+    plane.normal = (face.reversed ? -1 : 1) * to_vector(u.Crossed(v)).normalized();
+    for (const CadWire& wire : face.wires)
+      if (!measure(wire, plane)) return std::nullopt;
+    return plane;
+  }
+
+  /// \return false if the wire is not a plain loop
+  bool measure(const CadWire& wire, PlaneFace& plane) const {
+    constexpr int pieces_of_curve = 16;
+    double area = 0, length = 0;
+    for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
+      const Coedge &coedge = wire.coedges[i], &next = wire.coedges[(i + 1) % wire.coedges.size()];
+      const CadEdge &edge = shape_.edges[coedge.edge], &after = shape_.edges[next.edge];
+      const VertexId end = coedge.forward ? edge.last_vertex : edge.first_vertex;
+      const VertexId start = next.forward ? after.first_vertex : after.last_vertex;
+      if (!wire.ordered || coedge.internal || !(edge.length > 0) || end != start) return false;
+      const Vector2 in = direction(edge, coedge, false), out = direction(after, next, true);
+      const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
+      plane.angles[end] += std::numbers::pi - turn;
+      Vector2 from = parametric_point(coedge, edge.first);
+      for (int k = 1; k <= pieces_of_curve; ++k) {
+        const double t = edge.first + (edge.last - edge.first) * k / pieces_of_curve;
+        const Vector2 to = parametric_point(coedge, t);
+        area += (coedge.forward ? 0.5 : -0.5) * (from.x() * to.y() - from.y() * to.x());
+        from = to;
+      }
+      length += edge.length;
+    }
+    if (area <= 0) return true;  // around a hole
+    plane.area = area;
+    plane.length = length;
+    return true;
+  }
+
+  bool stays(EdgeId id) const {
+    const CadEdge& edge = shape_.edges[id];
+    return edge.faces.size() != 2 || edge.faces[0] == edge.faces[1] || sizing_.names_edge(edge.number) ||
+           sizing_.names_vertex(edge.first_vertex.number()) ||
+           sizing_.names_vertex(edge.last_vertex.number());
+  }
+
+  bool has_edge_that_stays(FaceId face, const std::set<FaceId>& inside) const {
+    bool result = false;
+    for_each_edge(face, [&](EdgeId edge) {
+      const auto& faces = shape_.edges[edge].faces;
+      result = result || (stays(edge) && std::any_of(faces.begin(), faces.end(),
+                                                     [&](FaceId other) { return inside.contains(other); }));
+    });
+    return result;
+  }
+
+  double shared_length(FaceId face, const std::set<FaceId>& inside) const {
+    double result = 0;
+    for_each_edge(face, [&](EdgeId edge) {
+      const auto& faces = shape_.edges[edge].faces;
+      if (std::any_of(faces.begin(), faces.end(), [&](FaceId other) { return inside.contains(other); }))
+        result += shape_.edges[edge].length;
+    });
+    return result;
+  }
+
+  /// Whether the edge between a group and another face had better not be there.
+  bool does_harm(EdgeId id, const Group& group, const PlaneFace& other) const {
+    constexpr double sharp = 40 * std::numbers::pi / 180;
+    const CadEdge& edge = shape_.edges[id];
+    const PlaneFace& whole = group.whole;
+    const auto is_bad = [&](VertexId end) {
+      return group.touching.contains(end) || std::min(whole.angles.at(end), other.angles.at(end)) < sharp;
+    };
+    return edge.length < limits_.size_min || std::min(whole.width(), other.width()) < limits_.largest ||
+           is_bad(edge.first_vertex) || is_bad(edge.last_vertex);
+  }
+
+  /// Whether all edges of a face lie in a plane, within the tolerances of the face and of that of the plane.
+  bool is_in_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
+    constexpr int samples = 4;
+    const double tolerance = std::max(shape_.faces[first].tolerance, shape_.faces[face].tolerance);
+    bool result = true;
+    for_each_edge(face, [&](EdgeId id) {
+      for (const Vector3& point : points_along(shape_.edges[id], samples))
+        result = result && std::abs((point - plane.origin).dot(plane.normal)) <=
+                               std::max(tolerance, shape_.edges[id].tolerance);
+    });
+    return result;
+  }
+
+  /// Whether the faces look the same way, and lie on both sides of the edge.
+  bool lie_beside_each_other(EdgeId edge, FaceId a, FaceId b) const {
+    constexpr double parallel = 0.9;  // slivers may have any normal
+    if (planes_[a]->normal.dot(planes_[b]->normal) < parallel) return false;
+    return is_along(edge, a) != is_along(edge, b);
+  }
+
+  /// Whether the face, seen from outside, lies to the left of the edge.
+  bool is_along(EdgeId edge, FaceId face) const {
+    for (const CadWire& wire : shape_.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges)
+        if (coedge.edge == edge) return coedge.forward != shape_.faces[face].reversed;
+    return false;
+  }
+
+  const CadShape& shape_;
+  const SizingOptions& sizing_;
+  const SizeLimits& limits_;
+  IdVector<FaceId, std::optional<PlaneFace>> planes_;  // of the faces that may be joined
+};
+
+/// Makes one face of several.
+class FaceJoiner {
+ public:
+  FaceJoiner(const CadShape& shape, std::vector<FaceId> members)
+      : shape_(shape), members_(std::move(members)) {
+    std::map<EdgeId, int> uses;
+    for_each_coedge([&](const CadFace&, const Coedge& coedge) { ++uses[coedge.edge]; });
+    for (const auto& [edge, count] : uses)
+      if (count == 2) inner_.push_back(edge);
+  }
+
+  const std::vector<FaceId>& members() const { return members_; }
+  const std::vector<EdgeId>& inner() const { return inner_; }
+
+  /// The face with the outline of all. Nothing if the outline touches itself.
+  std::optional<CadFace> face() const {
+    std::optional<std::vector<CadWire>> wires = outline();
+    if (!wires) return std::nullopt;
+    CadFace result = shape_.faces[members_.front()];
+    result.face = TopoDS::Face(result.face.EmptyCopied());
+    result.wires = std::move(*wires);
+    const BRep_Builder builder;
+    for (const CadWire& wire : result.wires) {
+      TopoDS_Wire loop;
+      builder.MakeWire(loop);
+      for (const Coedge& coedge : wire.coedges) builder.Add(loop, coedge.source);
+      builder.Add(result.face, loop);
+    }
+    BRepTools::UVBounds(result.face, result.u_min, result.u_max, result.v_min, result.v_max);
+    for (const FaceId member : members_)
+      result.tolerance = std::max(result.tolerance, shape_.faces[member].tolerance);
+    return result;
+  }
+
+ private:
+  template <class Act>
+  void for_each_coedge(Act&& act) const {
+    for (const FaceId member : members_)
+      for (const CadWire& wire : shape_.faces[member].wires)
+        for (const Coedge& coedge : wire.coedges) act(shape_.faces[member], coedge);
+  }
+
+  std::optional<std::vector<CadWire>> outline() const {
+    std::map<VertexId, Coedge> starts;
+    bool is_plain = true;
+    std::vector<CadWire> wires;
+    for_each_coedge([&](const CadFace& face, Coedge coedge) {
+      if (std::binary_search(inner_.begin(), inner_.end(), coedge.edge)) return;
+      const CadFace& first = shape_.faces[members_.front()];
+      coedge.forward = coedge.forward == (face.reversed == first.reversed);
+      coedge.source = TopoDS::Edge(coedge.source.Oriented(coedge.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
+      double from = 0, to = 0;
+      coedge.parametric_curve = BRep_Tool::CurveOnSurface(coedge.source, first.face, from, to);
+      const CadEdge& edge = shape_.edges[coedge.edge];
+      const VertexId start = coedge.forward ? edge.first_vertex : edge.last_vertex;
+      is_plain = is_plain && !coedge.parametric_curve.IsNull() && start.exists() &&
+                 starts.emplace(start, std::move(coedge)).second;
+    });
+    while (is_plain && !starts.empty()) {
+      CadWire wire;
+      for (auto next = starts.begin(); next != starts.end();) {
+        const CadEdge& edge = shape_.edges[next->second.edge];
+        const VertexId end = next->second.forward ? edge.last_vertex : edge.first_vertex;
+        wire.coedges.push_back(std::move(next->second));
+        starts.erase(next);
+        next = starts.find(end);
+      }
+      wires.push_back(std::move(wire));
+    }
+    return is_plain ? std::optional(std::move(wires)) : std::nullopt;
+  }
+
+  const CadShape& shape_;
+  std::vector<FaceId> members_;
+  std::vector<EdgeId> inner_;  // ascending
+};
+
+/// Puts the joined face in the place of the first.
+void replace(CadShape& shape, const FaceJoiner& joiner, CadFace face, SimplifiedModel& model) {
+  constexpr int pieces = 32;
+  const FaceId first = joiner.members().front();
+  for (const EdgeId id : joiner.inner()) {
+    CadEdge& edge = shape.edges[id];
+    model.inner.push_back(
+        {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)});
+    edge.faces.clear();
+  }
+  for (const FaceId member : joiner.members()) {
+    if (member == first) continue;
+    model.gone[member] = 1;
+    model.taken_by[member] = first;
+    shape.faces[member].wires.clear();
+  }
+  for (const CadWire& wire : face.wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      auto& faces = shape.edges[coedge.edge].faces;
+      for (FaceId& at : faces)
+        if (model.taken_by[at].exists()) at = model.taken_by[at];
+      std::sort(faces.begin(), faces.end());
+    }
+  }
+  shape.faces[first] = std::move(face);
+}
+
+}  // namespace
+
+void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                         const SizeLimits& limits) {
+  const CadShape& before = model.model.shape();
+  const CoplanarFaces faces(before, model.left(used), sizing, limits);
+  std::shared_ptr<CadShape> after;
+  FaceFlags taken(before.faces.size());
+  for (const FaceId face : taken.ids()) {
+    if (taken[face]) continue;
+    const FaceJoiner joiner(before, faces.around(face, taken));
+    if (joiner.members().size() < 2) continue;
+    for (const FaceId member : joiner.members()) taken[member] = 1;
+    std::optional<CadFace> whole = joiner.face();
+    if (!whole) continue;
+    if (!after) after = std::make_shared<CadShape>(before);
+    replace(*after, joiner, std::move(*whole), model);
+  }
+  if (after) model.model = CadModel(after);
+}
+
+}  // namespace quadrille
