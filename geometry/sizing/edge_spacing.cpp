@@ -15,7 +15,7 @@ namespace quadrille {
 namespace {
 
 /// Shares of the whole length at which segments in the given ratios begin and end; empty if all are equal.
-std::vector<double> shares_of(int segments, const EdgeSpacing& spacing) {
+std::vector<double> shares_by(int segments, const EdgeSpacing& spacing) {
   if (spacing.bias == 1 && spacing.bias_both == 1) return {};
   std::vector<double> shares{0};
   for (int k = 0; k < segments; ++k) {
@@ -56,6 +56,10 @@ std::vector<int> split_count(const CadShape& shape, const std::vector<EdgeId>& p
 
 }  // namespace
 
+std::vector<double> PrescribedEdge::shares_of(int number) const {
+  return number == segments ? shares : shares_by(number, spacing);
+}
+
 double PrescribedEdge::size_at(double share, double length) const {
   if (shares.empty()) return length / segments;
   const auto it = std::upper_bound(shares.begin() + 1, shares.end() - 1, share);
@@ -79,20 +83,19 @@ PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& opt
       const double cap = own == options.edge_sizes.end() ? size : std::min(size, own->second);
       double length = 0;
       for (const EdgeId piece : pieces) length += shape.edges[piece].length;
-      // An even number, so that subdivision can produce it.
-      segments = 2 * std::max(1, round_to_int(0.5 * length / cap));
+      segments = std::max(1, round_to_int(length / cap));
     }
+    if (pieces.size() > 1 && (spacing.bias != 1 || spacing.bias_both != 1))
+      throw usage_error("bias",
+                        fmt::format("`bias` cannot be given on Edge{}, which a seam divides", number));
     if (segments < static_cast<int>(pieces.size()))
       throw usage_error(
           "segments",
           fmt::format("`segments` gives {} to Edge{}, which is in {} pieces: give at least one per piece",
                       segments, number, pieces.size()));
-    if (pieces.size() > 1 && (spacing.bias != 1 || spacing.bias_both != 1))
-      throw usage_error("bias",
-                        fmt::format("`bias` cannot be given on Edge{}, which a seam divides", number));
     const std::vector<int> counts = split_count(shape, pieces, segments);
     for (std::size_t i = 0; i < pieces.size(); ++i)
-      result[pieces[i]] = PrescribedEdge{counts[i], shares_of(counts[i], spacing)};
+      result[pieces[i]] = PrescribedEdge{counts[i], shares_by(counts[i], spacing), spacing};
   }
   return result;
 }

@@ -11,11 +11,17 @@ namespace quadrille {
 
 /// The division of one edge, independent of the sizing field.
 struct PrescribedEdge {
-  int segments = 0;  ///< number of segments in the final mesh
+  int segments = 0;  ///< number of segments in the final mesh; where it is not fixed, the wanted one
   /// Positions of the nodes as shares of the edge's length from its start: ascending, segments + 1 of them.
   /// Empty where only the number of segments is prescribed.
   std::vector<double> shares;
+  /// What `shares` follows; 0 segments = the chord of the edge decides how many it gets.
+  EdgeSpacing spacing{segments};
 
+  /// Whether the number of segments is prescribed, not their spacing alone.
+  bool is_fixed() const { return spacing.segments > 0; }
+  /// The positions of the nodes if the edge gets so many segments.
+  std::vector<double> shares_of(int number) const;
   /// The length of the segment at a share of an edge of this length; the mean length if `shares` is empty.
   double size_at(double share, double length) const;
   /// The length of the shortest segment on an edge of this length.

@@ -54,7 +54,7 @@ struct SizeRegion {
 
 /// The number of segments of a CAD edge, and the ratios of their lengths.
 struct EdgeSpacing {
-  int segments = 0;      ///< number of segments; 0 = from the size requested on the edge
+  int segments = 0;      ///< number of segments; 0 = from its chord, or the size requested on the edge
   double bias = 1;       ///< length ratio of each segment to the one before, in the edge's direction
   double bias_both = 1;  ///< the same ratio from both ends to the middle
 };

@@ -124,9 +124,9 @@ class CountChooser {
       if (chords_.of(chord) != chord || fixed % units_[chord] == 0) continue;
       throw usage_error(
           "segments", fmt::format("`segments` gives {} to {}, and a face there that is not a grid needs an "
-                                  "even number: use {} or {}, or `strategy` direct",
+                                  "even number: use {}, or `strategy` direct",
                                   fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }),
-                                  fixed - 1, fixed + 1));
+                                  fixed > 1 ? fmt::format("{} or {}", fixed - 1, fixed + 1) : "2"));
     }
     for (const FaceId face : odd) {
       const std::string names = fixed_edges([&](EdgeId edge) { return is_on(edge, sides_[face]); });

@@ -355,10 +355,10 @@ class EdgeSampler {
     const double turning = std::min(tables_[i].turning, hardly);
     const int least = least_segments(closed, turning, shares_both_ends, inner, result_.stride);
     const bool needs_stride = closed || shares_both_ends || inner;
-    if (segments < (needs_stride ? result_.stride * least : 1))
+    if (plan_.prescribed[i]->is_fixed() && segments < (needs_stride ? result_.stride * least : 1))
       throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
                                                 segments, shape_.edges[i].number, result_.stride * least));
-    targets_.fixed[i] = segments;
+    if (plan_.prescribed[i]->is_fixed()) targets_.fixed[i] = segments;
     targets_.wanted[i] = 1.0 * segments / result_.stride;
     targets_.least[i] = std::max(1, std::min(targets_.least[i], segments / result_.stride));
     targets_.least_of_grids[i] = std::min(targets_.least_of_grids[i], segments);
@@ -367,7 +367,7 @@ class EdgeSampler {
   EdgeShares prescribed_shares() const {
     EdgeShares shares(n_);
     for (const EdgeId i : shape_.edges.ids()) {
-      if (is_prescribed(i)) shares[i] = plan_.prescribed[i]->shares;
+      if (is_prescribed(i) && counts_[i] > 0) shares[i] = plan_.prescribed[i]->shares_of(counts_[i]);
     }
     for (const auto& [edge, heads] : plan_.rows.heads)
       if (counts_[edge] > 0) shares[edge] = shares_with_heads(edge, heads);

@@ -105,15 +105,14 @@ class RowFinder {
     for (const auto& [edge, beside] : layered) {
       const bool all = std::all_of(beside.begin(), beside.end(), [&](EdgeId side) {
         const auto it = of_layers.find(side);
-        return it != of_layers.end() && is_in_grids(side, it->second.segments, of_layers);
+        return it != of_layers.end() && is_in_grids(side, it->second, of_layers);
       });
       if (!all) continue;
       rows_.layered[edge] = 1;
       for (const EdgeId side : beside) rows_.prescribed[side] = of_layers.at(side);
     }
     for (const EdgeId edge : rows_.prescribed.ids()) {
-      if (const auto& own = rows_.prescribed[edge])
-        rows_.divided[edge] = is_in_grids(edge, own->segments, of_layers);
+      if (const auto& own = rows_.prescribed[edge]) rows_.divided[edge] = is_in_grids(edge, *own, of_layers);
     }
     return std::move(rows_);
   }
@@ -221,13 +220,24 @@ class RowFinder {
     return chord;
   }
 
-  bool is_in_grids(EdgeId edge, int segments, const std::map<EdgeId, PrescribedEdge>& of_layers) const {
+  /// The number of segments that an edge has in any case; 0 = none.
+  int fixed_number(EdgeId edge, const std::map<EdgeId, PrescribedEdge>& of_layers) const {
+    if (const auto& own = rows_.prescribed[edge]; own && own->is_fixed()) return own->segments;
+    const auto it = of_layers.find(edge);
+    return it == of_layers.end() ? 0 : it->second.segments;
+  }
+
+  bool is_in_grids(EdgeId edge, const PrescribedEdge& own,
+                   const std::map<EdgeId, PrescribedEdge>& of_layers) const {
     const std::set<EdgeId> chord = chord_of(edge);
+    if (!std::all_of(chord.begin(), chord.end(), [](EdgeId member) { return member.exists(); })) return false;
+    int segments = own.segments;
+    for (const EdgeId member : chord) {
+      const int number = own.is_fixed() ? 0 : fixed_number(member, of_layers);
+      if (number > 0) segments = number;
+    }
     return std::all_of(chord.begin(), chord.end(), [&](EdgeId member) {
-      if (!member.exists()) return false;
-      if (rows_.prescribed[member]) return rows_.prescribed[member]->segments == segments;
-      if (const auto it = of_layers.find(member); it != of_layers.end())
-        return it->second.segments == segments;
+      if (const int number = fixed_number(member, of_layers)) return number == segments;
       const double wanted = std::max(1.0, shape_.edges[member].length / size_on(member));
       return segments <= largest_row_ratio * wanted && wanted <= largest_row_ratio * segments;
     });

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
@@ -89,10 +92,40 @@ TEST(EdgeSpacing, SegmentsFollowEachOtherByTheirBias) {
   EXPECT_EQ(alike, 4);
   const auto& both = segments.at(1);
   ASSERT_GE(both.size(), 4u);
-  EXPECT_EQ(both.size() % 2, 0u);
   for (std::size_t i = 0; 2 * (i + 1) < both.size(); ++i) {
     EXPECT_NEAR(both[i + 1] / both[i], 1.5, 1e-6);
     EXPECT_NEAR(both[i], both[both.size() - 1 - i], 1e-6);
+  }
+}
+
+/// A face of a square of 10 by 10, whose edges are 1 to 4 along its wire.
+CadModel square() {
+  const auto corner = [](double x, double y) { return gp_Pnt(x, y, 0); };
+  BRepBuilderAPI_MakePolygon sides(corner(0, 0), corner(10, 0), corner(10, 10), corner(0, 10), true);
+  return CadModel(std::make_shared<CadShape>(BRepBuilderAPI_MakeFace(sides.Wire(), true).Shape(), "square"));
+}
+
+/// Opposite edges have equal numbers, odd or even, and each keeps its own ratio: lines of a grid join them.
+TEST(EdgeSpacing, OppositeBiasedEdgesMakeAGrid) {
+  const CadModel model = square();
+  const auto& wire = model.shape().faces[face_id(1)].wires[0].coedges;
+  const int one = wire[0].edge.number(), facing = wire[2].edge.number(), across = wire[1].edge.number();
+  for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
+    for (const int n : {7, 8, 9}) {
+      SCOPED_TRACE(n);
+      const ShellMesh mesh =
+          mesh_with(model, {{one, {n, 1.3, 1}}, {facing, {0, 1, 1.2}}, {across, {0, 1.1, 1}}}, strategy);
+      const auto segments = segments_of(model, mesh);
+      ASSERT_EQ(segments.at(one).size(), n);
+      ASSERT_EQ(segments.at(facing).size(), n);
+      EXPECT_EQ(mesh.quads.size(), n * segments.at(across).size());
+      EXPECT_EQ(quality(mesh).irregular_percent, 0);
+      EXPECT_NEAR(segments.at(one)[1] / segments.at(one)[0], 1.3, 1e-6);
+      EXPECT_NEAR(segments.at(across)[1] / segments.at(across)[0], 1.1, 1e-6);
+      const auto& both = segments.at(facing);
+      EXPECT_NEAR(both[1] / both[0], 1.2, 1e-6);
+      EXPECT_NEAR(both[n - 2] / both[n - 1], 1.2, 1e-6);
+    }
   }
 }
 
