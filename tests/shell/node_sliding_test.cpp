@@ -63,14 +63,14 @@ struct MeshedFaces {
     for (const FaceId face : shape().faces.ids()) faces.push_back(mesh_of(face, field));
   }
 
-  /// With denser points where the usual ones give no mesh, as on the cone.
+  /// With finer points where the usual ones give no mesh, as on the cone.
   FaceMesh mesh_of(FaceId face, const SizingField& field) const {
     ExecutionContext context(1);
     const FaceChart chart = make_chart(shape(), face, nodes, ChartKind::own);
     try {
       return mesh_face(shape(), face, chart, nodes, field, options, {}, context);
     } catch (const Error&) {
-      return mesh_face(shape(), face, chart, nodes, field, options, {.refusal = 0.6}, context);
+      return mesh_face(shape(), face, chart, nodes, field, options, {.fineness = 2}, context);
     }
   }
 
