@@ -533,7 +533,8 @@ class Job {
         if (record.first_work == 0) record.first_work = share.work();
       };
       try {
-        record.recipe.reach = options_.strict ? 0 : reach_of(face);
+        record.recipe.leaves_surface = record.recipe.leaves_surface && !options_.strict;
+        record.recipe.reach = reach_of(face);
         meshes_[face] = mesh_face(shape_, face, chart, nodes_, field, options_, record.recipe, share);
       } catch (...) {
         count();

@@ -72,6 +72,9 @@ class CoplanarFaces {
     do {
       grow(group, taken);
     } while (find_touching(group));
+    // A few faces in a plane are a partition that someone drew; many small ones come from a program.
+    constexpr std::size_t least = 6;
+    if (group.members.size() < least) group.members = {first};
     return group.members;
   }
 

@@ -81,7 +81,7 @@ class FaceMesher {
       }
     }
     if (grid && !(best && judge_.replaces_grid(*best, *grid))) return std::move(*grid);
-    if (!best && recipe_.reach > 0) {
+    if (!best && recipe_.leaves_surface) {
       may_leave_surface_ = true;
       best = attempt({Layout::plain, false});
     }
@@ -207,6 +207,7 @@ class FaceMesher {
     const StageTimer timer(context_, Stage::triangulate);
     PlacementOptions placement;
     placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
+    placement.refusal = recipe_.refusal;
     PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
     context_.check();
     return triangulate_face(face_, boundary, std::move(placed), surface_, context_);

@@ -6,6 +6,7 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/faces/face_chart.hpp"
+#include "mesher/faces/point_placement.hpp"
 #include "mesher/options.hpp"
 #include "mesher/shell/face_mesh.hpp"
 
@@ -13,13 +14,15 @@ namespace quadrille {
 
 /// How a face is meshed.
 struct FaceRecipe {
-  ChartKind chart = ChartKind::own;  ///< plane that the face is triangulated in
-  bool mapped = true;                ///< mesh the face as a grid if its outline allows
-  bool clean_up = true;              ///< do topological clean-up
-  int fineness = 1;                  ///< divides the spacing of inner points
-  bool pair = true;                  ///< pair the triangles; else each becomes three quads
-  double reach = 0;           ///< how far nodes of inverted quads may leave the surface, as a last resort
-  bool inverted_too = false;  ///< also return a mesh that keeps inverted quads
+  ChartKind chart = ChartKind::own;             ///< plane that the face is triangulated in
+  bool mapped = true;                           ///< mesh the face as a grid if its outline allows
+  bool clean_up = true;                         ///< do topological clean-up
+  double refusal = PlacementOptions().refusal;  ///< least distance between points, see PlacementOptions
+  int fineness = 1;                             ///< divides the spacing of inner points
+  bool pair = true;                             ///< pair the triangles; else each becomes three quads
+  bool leaves_surface = false;                  ///< nodes of inverted quads may leave the surface
+  double reach = 0;                             ///< how far they may then move
+  bool inverted_too = false;                    ///< also return a mesh that keeps inverted quads
 };
 
 /// Meshes a face in one attempt: tries candidates (a grid, rings round its holes, neither; quads cut in four,

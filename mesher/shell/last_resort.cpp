@@ -291,6 +291,7 @@ FaceMesh mesh_off_surface(const CadShape& shape, const FaceProblem& problem, con
                               .mapped = false,
                               .clean_up = false,
                               .pair = pair,
+                              .leaves_surface = true,
                               .reach = reach,
                               .inverted_too = inverted_too};
       const auto make = [&] {

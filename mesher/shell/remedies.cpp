@@ -36,10 +36,28 @@ bool finer_there(Case& job) {
 /// Doubles the fineness of segments and points on the whole face, whose curvature is too much for its size.
 bool twice_as_fine(Case& job) {
   SamplingPlan& plan = job.plan;
-  job.record.recipe = {.chart = job.record.recipe.chart, .fineness = 2 * job.record.recipe.fineness};
+  job.record.recipe = {.chart = job.record.recipe.chart,
+                       .fineness = 2 * job.record.recipe.fineness,
+                       .leaves_surface = job.record.recipe.leaves_surface};
   for (const CadWire& wire : job.shape.faces[job.face].wires)
     for (const Coedge& coedge : wire.coedges)
       plan.factor[coedge.edge] = std::max(plan.factor[coedge.edge], job.record.recipe.fineness);
+  return true;
+}
+
+bool without_clean_up(Case& job) {
+  if (!job.record.recipe.clean_up) return false;
+  job.record.recipe.mapped = job.record.recipe.clean_up = false;
+  return true;
+}
+
+bool denser_points(Case& job) {
+  job.record.recipe = {.chart = job.record.recipe.chart, .refusal = 0.6};
+  return true;
+}
+
+bool off_the_surface(Case& job) {
+  job.record.recipe = {.chart = job.record.recipe.chart, .leaves_surface = true};
   return true;
 }
 
@@ -55,12 +73,12 @@ bool along_chord(Case& job) {
 }
 
 bool with_curves_made_anew(Case& job) {
-  job.record.recipe = {ChartKind::new_curves};
+  job.record.recipe = {.chart = ChartKind::new_curves, .leaves_surface = job.record.recipe.leaves_surface};
   return true;
 }
 
 bool seen_from_above(Case& job) {
-  job.record.recipe = {ChartKind::view};
+  job.record.recipe = {.chart = ChartKind::view, .leaves_surface = job.record.recipe.leaves_surface};
   return true;
 }
 
@@ -102,6 +120,9 @@ constexpr std::array table{
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},
+    Row{any_of({Cause::inverted}), "without clean-up", 1, without_clean_up},
+    Row{any_of({Cause::inverted, Cause::no_mesh}), "denser points", 1, denser_points},
+    Row{any_of({Cause::inverted}), "nodes of inverted quads off the surface", 1, off_the_surface},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
         "parametric curves recreated by projection", 1, with_curves_made_anew},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,

@@ -579,13 +579,13 @@ TEST(Command, ImprintsPartsThatTouch) {
   const std::string mesh_it = "mesh rod.brep -o a.msh --size 1 --report r.json ";
   const auto report = [&] { return nlohmann::json::parse(test::file_text(folder / "r.json")); };
 
-  EXPECT_PRED2(contains, stdout_of(folder, "info rod.brep").out, "--imprint joins such parts");
+  EXPECT_PRED2(contains, stdout_of(folder, "info rod.brep").out, "--imprint joins parts that touch or cross");
   EXPECT_PRED2(contains, stderr_of(folder, mesh_it).out, "--imprint joins parts that touch");
   EXPECT_GT(report()["coincident"]["nodes"], 0);
   EXPECT_EQ(report()["coincident"]["remedy"], "--imprint");
   EXPECT_FALSE(report().contains("imprinted"));
 
-  EXPECT_FALSE(contains(stdout_of(folder, "info rod.brep --imprint").out, "joins such parts"));
+  EXPECT_FALSE(contains(stdout_of(folder, "info rod.brep --imprint").out, "joins parts that touch"));
   EXPECT_EQ(stdout_of(folder, mesh_it + "--imprint").exit_code, 0);
   EXPECT_EQ(report()["coincident"]["nodes"], 0);
   EXPECT_EQ(report()["coincident"]["remedy"], nullptr);

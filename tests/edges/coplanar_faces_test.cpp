@@ -147,21 +147,17 @@ TEST(CoplanarFaces, APlaceInsideTheJoinedFaceGetsItsNode) {
     })) << place.name;
 }
 
-TEST(CoplanarFaces, APartitionThatDoesNoHarmStays) {
-  const CadModel model = sheet({rectangle(0, 0, 20, 20), rectangle(20, 0, 40, 20)});
-  EXPECT_EQ(faces_with_quads(meshed(model, with_size(2))), 2);
-  EXPECT_EQ(
-      faces_with_quads(meshed(sheet({rectangle(0, 0, 20, 20), rectangle(20, 0, 21, 20)}), with_size(2))), 1)
-      << "a strip that is narrower than the size";
-}
-
-TEST(CoplanarFaces, AStripIsJoinedWithOneOfTwoWideFaces) {
-  const CadModel model = sheet({rectangle(0, 0, 20, 20), rectangle(20, 0, 21, 20), rectangle(21, 0, 41, 20)});
-  EXPECT_EQ(faces_with_quads(meshed(model, with_size(2))), 2);
-  const CadModel wedge = sheet({{{0, 0}, {20, 5}, {0, 10}},
-                                {{0, 0}, {0, -20}, {20, -20}, {20, 5}},
-                                {{0, 10}, {20, 5}, {20, 30}, {0, 30}}});
-  EXPECT_EQ(faces_with_quads(meshed(wedge, with_size(1))), 2) << "a sharp corner";
+TEST(CoplanarFaces, AFewFacesAreAPartitionThatStays) {
+  const auto faces_left = [](const std::vector<Polygon>& polygons, double size) {
+    return faces_with_quads(meshed(sheet(polygons), with_size(size)));
+  };
+  EXPECT_EQ(faces_left({rectangle(0, 0, 20, 20), rectangle(20, 0, 40, 20)}, 2), 2);
+  EXPECT_EQ(faces_left({rectangle(0, 0, 20, 20), rectangle(20, 0, 21, 20), rectangle(21, 0, 41, 20)}, 2), 3);
+  EXPECT_EQ(faces_left({{{0, 0}, {20, 5}, {0, 10}},
+                        {{0, 0}, {0, -20}, {20, -20}, {20, 5}},
+                        {{0, 10}, {20, 5}, {20, 30}, {0, 30}}},
+                       1),
+            3);
 }
 
 TEST(CoplanarFaces, AJoinedFaceKeepsItsHole) {

@@ -19,7 +19,7 @@ namespace {
 constexpr int causes = static_cast<int>(Cause::out_of_time) + 1;
 
 auto text_of(const FaceRecipe& r) {
-  return std::tuple(r.chart, r.mapped, r.clean_up, r.fineness, r.pair);
+  return std::tuple(r.chart, r.mapped, r.clean_up, r.fineness, r.pair, r.refusal, r.leaves_surface);
 }
 
 auto text_of(const SamplingPlan& p) {
