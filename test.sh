@@ -10,8 +10,7 @@ scripts/clang_tidy.sh --most 20 || tidy=1
 run() { ctest --test-dir build --output-on-failure --parallel "$(nproc)" --no-tests=ignore "$@"; }
 status=0
 run --label-exclude window "$@" || status=$?
-# The tests in FreeCAD's window are repeated once if they fail, since other work on the machine can disturb them.
-run --label-regex window --repeat until-pass:2 "$@" || status=$?
+run --label-regex window "$@" || status=$?
 ((tidy == 0)) || { echo "clang-tidy has findings: see above, before the tests." >&2; status=1; }
 ((status == 0)) && echo "All tests passed, except those listed above as skipped." || echo "TESTS FAILED: see above."
 exit "$status"

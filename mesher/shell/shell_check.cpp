@@ -28,7 +28,7 @@ class ShellCheck {
         mesh_(mesh),
         counted_(requested),
         faces_at_(shape.edges.size(), 0),
-        reach_(0.5 * mesh.size_min) {
+        reach_(mesh.size_min) {
     for (const ShellMesh::Face& face : mesh.faces)
       if (face.status == FaceStatus::failed) counted_[FaceId::from_number(face.face)] = 0;
     for (const double tolerance : shape.vertex_tolerances) reach_ = std::max(reach_, tolerance);

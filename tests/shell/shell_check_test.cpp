@@ -19,6 +19,7 @@ struct Meshed {
   explicit Meshed(const std::string& name) : model(CadModel::read(path_of(name))) {
     MeshOptions options;
     options.sizing.size = model.diagonal() / 15;
+    options.rings = 0;  // they are narrower than what may be suppressed
     ExecutionContext context(1);
     shell = mesh(model, options, context);
   }

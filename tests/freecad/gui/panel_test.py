@@ -251,17 +251,15 @@ class PanelTest(GuiCase):
         self.press_mesh()
         for name in ("QuadrilleByFace", "QuadrilleRefinements", "QuadrilleMore"):
             find(name).setChecked(True)
-        process(0.5)
         bar = find("QuadrilleScrolled").verticalScrollBar()
-        self.assertGreater(bar.maximum(), 0)
+        wait_for(lambda: bar.maximum() > 0, what="more rows than fit")
         for height in (940, 700):
             window().resize(1500, height)
-            for value in (bar.minimum(), bar.maximum()):
-                bar.setValue(value)
-                process(0.5)
+            for at_end in (False, True):
+                bar.setValue(bar.maximum() if at_end else bar.minimum())
                 for name in ("QuadrilleMesh", "QuadrilleStop", "QuadrilleProgress"):
                     button = find(name)
-                    self.assertEqual(button.visibleRegion().boundingRect(), button.rect(), f"{name} at height {height}")
+                    wait_for(lambda: button.visibleRegion().boundingRect() == button.rect(), what=f"{name} in sight at height {height}")
         picture("buttons")
         close_panel()
 
