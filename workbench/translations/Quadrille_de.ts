@@ -212,8 +212,12 @@
         <translation>Irreguläre Knoten</translation>
     </message>
     <message>
-        <source>Outside limits, without warp and short sides</source>
-        <translation>Außerhalb, ohne Verwindung, kurze Seiten</translation>
+        <source>Outside limits</source>
+        <translation>Außer Grenzen</translation>
+    </message>
+    <message>
+        <source>Without warp and short sides, which the table below counts</source>
+        <translation>Ohne Verwindung und kurze Seiten, die die Tabelle darunter zählt</translation>
     </message>
     <message>
         <source>Mesher&apos;s time</source>

@@ -212,8 +212,12 @@
         <translation>Nœuds irréguliers</translation>
     </message>
     <message>
-        <source>Outside limits, without warp and short sides</source>
-        <translation>Hors limites, sans gauchissement ni côtés courts</translation>
+        <source>Outside limits</source>
+        <translation>Hors limites</translation>
+    </message>
+    <message>
+        <source>Without warp and short sides, which the table below counts</source>
+        <translation>Sans gauchissement ni côtés courts, comptés dans le tableau ci-dessous</translation>
     </message>
     <message>
         <source>Mesher&apos;s time</source>

@@ -139,9 +139,11 @@ class QualityWidget(QtGui.QWidget):
             (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
             (translate("Quadrille", "Jacobian"), f"{mesh.WorstJacobian:.3f}, {mesh.MeanJacobian:.3f}"),
             (translate("Quadrille", "Irregular nodes"), f"{digits(round(mesh.IrregularPercent, 2))} %"),
-            (translate("Quadrille", "Outside limits, without warp and short sides"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
+            (translate("Quadrille", "Outside limits"), f"{digits(round(mesh.OutsidePercent, 2))} %"),
             (translate("Quadrille", "Mesher's time"), f"{digits(round(mesh.Seconds, 2))} s"),
         ))
+        outside = 5  # row
+        self.table.item(outside, 0).setToolTip(translate("Quadrille", "Without warp and short sides, which the table below counts"))
         self.show_status(mesh.Status)
         self._list_forced()
 
