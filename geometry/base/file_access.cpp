@@ -1,4 +1,5 @@
-/// Asks faccessat(2), as the kernel will judge this process, about a file, or about the folder that a file is to be written to.
+/// Asks faccessat(2), as the kernel will judge this process, about a file, or about the folder that a file is
+/// to be written to.
 
 #include "geometry/base/file_access.hpp"
 

@@ -172,12 +172,16 @@ TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>
     }
   };
   // First those in space, which all faces at an edge share.
-  for (const auto& [i, found] : incomplete)
+  for (const auto& [number, found] : incomplete) {
+    const TopoDS_Face& face = TopoDS::Face(copied(number));
     if (!found.in_space)
-      complete(i, "spatial", "from its parametric ones", [&] { add_spatial_curves(copied(i)); });
-  for (const auto& [i, found] : incomplete)
+      complete(number, "spatial", "from its parametric ones", [&face] { add_spatial_curves(face); });
+  }
+  for (const auto& [number, found] : incomplete) {
+    const TopoDS_Face& face = TopoDS::Face(copied(number));
     if (!found.on_face)
-      complete(i, "parametric", "by projection", [&] { add_parametric_curves(TopoDS::Face(copied(i))); });
+      complete(number, "parametric", "by projection", [&face] { add_parametric_curves(face); });
+  }
   return copy;
 }
 

@@ -304,9 +304,10 @@ TEST(Command, TakesTheThreadsThatThereAre) {
   // A user who may have no more processes; root may have any number, and becomes nobody, who here may still
   // read what only root may, such as a checkout in root's own folder.
   std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
-  const std::string nobody = ::geteuid() == 0 ? "setpriv --reuid=65534 --clear-groups --inh-caps=-all,+dac_override "
-                                               "--ambient-caps=-all,+dac_override "
-                                             : "";
+  const std::string nobody = ::geteuid() == 0
+                                 ? "setpriv --reuid=65534 --clear-groups --inh-caps=-all,+dac_override "
+                                   "--ambient-caps=-all,+dac_override "
+                                 : "";
   const auto result =
       test::run(fmt::format("cd {} && {} prlimit --nproc=1 {} mesh {} -o b.msh --size 4 --quiet 2>&1",
                             folder.path().string(), nobody, program, box));
