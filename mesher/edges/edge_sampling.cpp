@@ -17,7 +17,6 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
-#include "mesher/edges/gap_nodes.hpp"
 #include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/strip_counts.hpp"
 
@@ -142,7 +141,6 @@ class EdgeSampler {
       if (counts_[i] > 0) place_nodes(i, check);
     }
     copy_nodes();
-    align_gaps(shape_, used_, sides, plan_.unaligned, result_);
     end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
     copy_nodes();
     borrow_nodes();
@@ -477,7 +475,6 @@ class EdgeSampler {
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
       ignore_curvature(shape.edges.size()),
-      unaligned(shape.faces.size()),
       subdivided(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
 

@@ -89,7 +89,6 @@ struct SamplingPlan {
   std::vector<EdgeStretch> finer;
   double shortest_segment = 0;  ///< that `finer` may ask for, model units; 0 = any
   EdgeFlags ignore_curvature;   ///< 1 = ignore how the curve turns, it may have loops
-  FaceFlags unaligned;          ///< 1 = nodes need not face each other across the face's gaps
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
   TinyFeatures tiny;
   std::vector<Tip> tips;       ///< at which faces end early

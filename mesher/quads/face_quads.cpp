@@ -92,7 +92,6 @@ FaceQuads make_quads(FaceTriangulation triangulation, const MeshSurface& surface
   if (options.clean_up && options.improve.clean_up) clean(quads, surface, options.improve, context);
   smooth(quads, surface, options.improve, context);
   if (split) {
-    cut_flat_quads(quads.surface_mesh.mesh, quads.surface_mesh.normals, segments, context);
     quads = subdivide(quads, segments, surface, context);
     smooth(quads, surface, options.improve, context);
   }

@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "geometry/base/side_key.hpp"
-#include "mesher/edges/gap_nodes.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
@@ -201,32 +200,6 @@ int FaceQuads::add(const Vector3& point, const Vector2& uv, const Vector3& norma
   surface_mesh.fixed.push_back(fixed);
   pole.push_back(is_pole);
   return static_cast<int>(pole.size()) - 1;
-}
-
-void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
-                    const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context) {
-  SparseCheck check(context);
-  constexpr double bad = 0.3, gain = 0.1, flat = 1e-6;
-  const SideMiddles middles(mesh.points, segments);
-  std::erase_if(mesh.quads, [&](const std::array<int, 4>& quad) {
-    check();
-    const auto [a, b, c, d] = quad;
-    const Vector3 normal = normals[a] + normals[b] + normals[c] + normals[d];
-    const auto worst = [&](const auto& corners) { return worst_part(mesh.points, corners, middles, normal); };
-    const double whole = worst(quad);
-    if (whole > bad) return false;
-    using Triangle = std::array<int, 3>;
-    const std::array first{Triangle{a, b, c}, Triangle{a, c, d}},
-        second{Triangle{a, b, d}, Triangle{b, c, d}};
-    const double by_first = std::min(worst(first[0]), worst(first[1])),
-                 by_second = std::min(worst(second[0]), worst(second[1]));
-    // Corners of 180 degrees are always cut. One near that, as at cusps, is cut if the value doubles.
-    const double cut = std::max(by_first, by_second);
-    if (cut < 0 || cut < whole + std::clamp(whole, flat, gain)) return false;
-    const auto& parts = by_first > by_second ? first : second;
-    mesh.triangles.insert(mesh.triangles.end(), parts.begin(), parts.end());
-    return true;
-  });
 }
 
 void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,

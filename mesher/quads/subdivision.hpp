@@ -18,17 +18,13 @@ struct FaceQuads {
   int add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole);
 };
 
-/// Cuts a quad into two triangles if its four parts would be worse than the six parts of the triangles. Such
-/// quads have a corner of almost 180 degrees or more. Where the boundary makes that corner, smoothing cannot
-/// repair it. Parts have the edges' own nodes on boundary sides. \param normals (points) unit normals of the
-/// surface. \param segments as for subdivide().
-void cut_flat_quads(QuadMesh& mesh, const std::vector<Vector3>& normals,
-                    const std::vector<FaceBoundary::Segment>& segments, const ExecutionContext& context = {});
+/// Largest width of a gap that a single row of quads spans, in lengths of the segments on its sides.
+constexpr double widest_gap = 0.7;
 
 /// Gives two triangles that make a quad across a gap a tag of their own, so that they are paired. The gap
 /// lies between two boundary segments that are nearer to each other than widest_gap segments. Other pairs
 /// there would be sheared, or bent around a boundary node. Quads whose parts would be poor are left out.
-/// \param normals,segments as for cut_flat_quads().
+/// \param normals (points) unit normals of the surface. \param segments as for subdivide().
 void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
                      const std::vector<FaceBoundary::Segment>& segments);
 

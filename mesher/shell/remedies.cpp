@@ -105,18 +105,9 @@ struct Row {
   Remedy apply;
 };
 
-bool nodes_where_they_were(Case& job) {
-  char& unaligned = job.plan.unaligned[job.face];
-  if (unaligned != 0) return false;
-  unaligned = 1;
-  return true;
-}
-
 /// The remedies for each cause, the least intrusive first.
 constexpr std::array table{
     Row{any_of({Cause::inverted, Cause::odd_boundary, Cause::no_mesh}), "by subdivision", 1, by_subdivision},
-    Row{any_of({Cause::coarse_segments, Cause::looped_edge, Cause::crossing_curves}),
-        "nodes not moved to face each other", 1, nodes_where_they_were},
     Row{any_of({Cause::narrow_gaps}), "finer segments there", FaceRecord::most_looks, finer_there},
     Row{any_of({Cause::coarse_segments}), "finer segments there", 4, finer_there},
     Row{any_of({Cause::looped_edge}), "nodes along the chord of that edge", 1, along_chord},

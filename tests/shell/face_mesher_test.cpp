@@ -180,52 +180,6 @@ TEST(FaceSurface, IsTheSameSeenFromAbove) {
   }
 }
 
-TEST(CutFlatQuads, CutsAQuadWithAStraightCornerAlone) {
-  QuadMesh mesh;
-  mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}};
-  mesh.quads = {{0, 1, 2, 3}, {2, 4, 5, 6}};
-  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {});
-  ASSERT_EQ(mesh.quads.size(), 1U);
-  EXPECT_EQ(mesh.quads[0], (std::array<int, 4>{2, 4, 5, 6}));
-  ASSERT_EQ(mesh.triangles.size(), 2U);
-  for (const auto& t : mesh.triangles) {
-    // The cut leaves from the straight corner.
-    EXPECT_TRUE(std::find(t.begin(), t.end(), 1) != t.end() && std::find(t.begin(), t.end(), 3) != t.end());
-  }
-}
-
-TEST(CutFlatQuads, SeesTheCurvesOfTheBoundary) {
-  // Flat by the curve alone: its middle lies above the corner that both segments share.
-  QuadMesh mesh;
-  mesh.points = {{0, 0, 0}, {2, -0.6, 0}, {4, 0, 0}, {2, 3, 0}};
-  mesh.quads = {{0, 1, 2, 3}};
-  FaceBoundary::Segment left, right;
-  left.a = 0;
-  left.b = right.a = 1;
-  right.b = 2;
-  const std::vector<Vector3> normals(4, Vector3::UnitZ());
-  left.middle_point = {1, -0.3, 0};
-  right.middle_point = {3, -0.3, 0};
-  cut_flat_quads(mesh, normals, {left, right});
-  EXPECT_EQ(mesh.quads.size(), 1U);
-  left.middle_point = {1, -0.75, 0};
-  right.middle_point = {3, -0.75, 0};
-  cut_flat_quads(mesh, normals, {left, right});
-  EXPECT_EQ(mesh.triangles.size(), 2U);
-}
-
-TEST(CutFlatQuads, CutsTheMitreOfANarrowFrameInside) {
-  // The other cut would span the hole of the frame with triangles of a better shape.
-  QuadMesh mesh;
-  mesh.points = {{0, 0, 0}, {4, 0, 0}, {0.1, 0.1, 0}, {0, 4, 0}};
-  mesh.quads = {{0, 1, 2, 3}};
-  cut_flat_quads(mesh, std::vector<Vector3>(mesh.points.size(), Vector3::UnitZ()), {});
-  ASSERT_EQ(mesh.triangles.size(), 2U);
-  for (const auto& t : mesh.triangles) {
-    EXPECT_TRUE(std::find(t.begin(), t.end(), 0) != t.end() && std::find(t.begin(), t.end(), 2) != t.end());
-  }
-}
-
 TEST(FaceBoundary, IsHalvedAtTheNodesBetween) {
   for_each_face([](Prepared& prepared, FaceId, const FaceSurface&, const FaceBoundary& boundary) {
     const FaceBoundary half = halved(boundary);
