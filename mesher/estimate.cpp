@@ -14,9 +14,9 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
-#include "mesher/boundary.hpp"
 #include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
+#include "mesher/stages/boundary.hpp"
 
 namespace quadrille {
 
