@@ -13,8 +13,7 @@
 #include "mesher/shell/area_check.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/shell_check.hpp"
-#include "mesher/stages/faces.hpp"
-#include "mesher/stages/shell.hpp"
+#include "mesher/stages/stages.hpp"
 
 namespace quadrille {
 
@@ -28,11 +27,10 @@ std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
     return a.step != b.step || varies(a) || varies(b) ||
            std::abs(a.thickness - b.thickness) > same * std::max(a.thickness, b.thickness);
   };
-  for (const CadEdge& edge : middle.model.shape().edges) {
+  for (const CadEdge& edge : middle.model.shape().edges)
     for (const FaceId face : edge.faces)
       if (differ(middle.faces[edge.faces.front().index()], middle.faces[face.index()]))
         result.insert(edge.number);
-  }
   return result;
 }
 
@@ -40,10 +38,9 @@ std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
 /// are not joined
 ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const MidSurface* middle,
                      ExecutionContext& context) {
-  Preparation how;
-  how.joins = middle == nullptr;
-  if (middle != nullptr) how.uncrossed = edges_where_thickness_changes(*middle);
-  const Prepared prepared(model, options, how);
+  const Prepared prepared(model, options,
+                          {.joins = middle == nullptr,
+                           .uncrossed = middle ? edges_where_thickness_changes(*middle) : std::set<int>()});
   const SizingField field = sizes_for(prepared, context);
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   const Run run{prepared, field, context};
@@ -75,20 +72,19 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
 /// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
 /// were meant for that face.
 std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
-  std::map<int, std::vector<int>> faces, rims;
+  std::map<std::pair<bool, int>, std::vector<int>> found;  // whether they are rims, and the solid's face
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
     if (middle.faces[i].step) continue;  // lies across, between two middle surfaces
-    for (const int face : middle.faces[i].solid_faces) faces[face].push_back(static_cast<int>(i) + 1);
+    for (const int face : middle.faces[i].solid_faces)
+      found[{false, face}].push_back(static_cast<int>(i) + 1);
   }
-  for (const MiddleRim& rim : middle.rims) {
-    for (const int face : rim.solid_faces) rims[face].push_back(rim.edge);
-  }
+  for (const MiddleRim& rim : middle.rims)
+    for (const int face : rim.solid_faces) found[{true, face}].push_back(rim.edge);
   std::vector<ShellMesh::Group> result;
-  result.reserve(faces.size() + rims.size());
-  for (auto& [face, numbers] : faces)
-    result.push_back({fmt::format("SolidFace{}", face), 2, 0, std::move(numbers)});
-  for (auto& [face, numbers] : rims)
-    result.push_back({fmt::format("SolidFace{}Rim", face), 1, 0, std::move(numbers)});
+  result.reserve(found.size());
+  for (auto& [of, numbers] : found)
+    result.push_back({fmt::format("SolidFace{}{}", of.second, of.first ? "Rim" : ""), of.first ? 1 : 2, 0,
+                      std::move(numbers)});
   return result;
 }
 

@@ -14,7 +14,7 @@
 #include "geometry/surfaces/surface_triangles.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/settings.hpp"
-#include "mesher/stages/boundary.hpp"
+#include "mesher/stages/prepared.hpp"
 
 namespace quadrille {
 

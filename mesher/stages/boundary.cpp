@@ -1,6 +1,6 @@
 /// Samples edges in rounds: faces whose boundary crosses itself or is crowded change the plan.
 
-#include "mesher/stages/boundary.hpp"
+#include "mesher/stages/stages.hpp"
 
 #include <Standard_Failure.hxx>
 
@@ -245,7 +245,7 @@ SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& option
   Boundary boundary(prepared);
   Faces faces(prepared);
   settle({prepared, field, context}, boundary, faces, false);
-  return {std::move(field), std::move(boundary.nodes), boundary.meshed};
+  return {prepared.simple, std::move(field), std::move(boundary.nodes), boundary.meshed};
 }
 
 }  // namespace quadrille

@@ -1,9 +1,11 @@
 /// Rounds of meshing, last resorts, and sliding.
 
-#include "mesher/stages/faces.hpp"
+#include "mesher/stages/stages.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -123,22 +125,15 @@ void explain_problems(const Prepared& prepared, Faces& faces) {
 /// With options.partial and a time limit, undoes the sliding if there is no time for all of it. \return the
 /// edges that quads cross
 std::vector<EdgeId> slide(const Run& run, BoundaryNodes& nodes, FaceMeshes& meshes) {
+  const auto before = run.is_limited() ? std::optional(std::pair(nodes, meshes)) : std::nullopt;
   std::vector<EdgeId> crossed;
-  const auto move = [&] {
-    if (run.is_limited()) run.context.check();
+  const bool done = run.in_time([&] {
+    if (before) run.context.check();
     crossed = slide_nodes(run.prepared.shape, nodes, meshes, run.prepared.protection.own_nodes,
                           run.prepared.options.improve, run.context);
-  };
-  if (!run.is_limited()) {
-    move();
-    return crossed;
-  }
-  BoundaryNodes nodes_before = nodes;
-  FaceMeshes meshes_before = meshes;
-  if (run.in_time(move)) return crossed;
-  nodes = std::move(nodes_before);
-  meshes = std::move(meshes_before);
-  return {};
+  });
+  if (!done && before) std::tie(nodes, meshes) = *before;
+  return crossed;
 }
 
 }  // namespace

@@ -21,6 +21,10 @@ FaceFlags faces_used(const CadModel& model, const MeshOptions& options) {
   return used;
 }
 
+namespace {
+
+/// With options.fill_holes small holes are filled, and without options.keep_features coplanar faces are
+/// joined, unless options.faces names those to mesh.
 SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bool joins) {
   const FaceFlags used = faces_used(model, options);
   SimplifiedModel result = fill_holes(model, used, options.sizing, options.fill_holes);
@@ -28,8 +32,6 @@ SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bo
     join_coplanar_faces(result, used, options.sizing, size_limits(model, options.sizing));
   return result;
 }
-
-namespace {
 
 /// Options by which matched faces and edges keep nodes of their own.
 MeshOptions checked(const CadModel& model, MeshOptions options) {

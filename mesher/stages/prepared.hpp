@@ -20,11 +20,6 @@ namespace quadrille {
 /// 1 = the options ask for this face to be meshed.
 FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
-/// The model that is meshed: with options.fill_holes small holes are filled, and without
-/// options.keep_features coplanar faces are joined, unless options.faces names those to mesh.
-/// \param joins faces may be joined
-SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bool joins = true);
-
 /// What users or matched pairs keep from being suppressed, cut short or crossed.
 struct Protection {
   EdgeFlags lengths;               ///< 1 = the edge must not become a point

@@ -1,6 +1,6 @@
 /// Assembles the faces, and lists what became of faces, small features, crossed edges and placed nodes.
 
-#include "mesher/stages/shell.hpp"
+#include "mesher/stages/stages.hpp"
 
 #include <algorithm>
 #include <map>

@@ -18,7 +18,7 @@
 
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/stages/boundary.hpp"
+#include "mesher/stages/stages.hpp"
 #include "tests/support/sheet.hpp"
 
 namespace quadrille {

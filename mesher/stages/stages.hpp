@@ -1,10 +1,12 @@
 #pragma once
-/// Second stage of a run: nodes on edges, between which the faces can be meshed. Internal.
+/// The stages of a run after the first: nodes on edges, quads of each face, one mesh of all. Internal.
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "mesher/faces/face_chart.hpp"
+#include "mesher/mesh/mesh_types.hpp"
 #include "mesher/shell/face_mesh.hpp"
 #include "mesher/shell/remedies.hpp"
 #include "mesher/stages/prepared.hpp"
@@ -73,6 +75,7 @@ bool treat(const Prepared& prepared, Boundary& boundary, Faces& faces);
 bool undo_remedies(const CadShape& shape, Boundary& boundary, Faces& faces);
 
 struct SettledBoundary {
+  SimplifiedModel simple;
   SizingField field;
   BoundaryNodes nodes;
   FaceFlags meshed;  ///< see Boundary
@@ -82,5 +85,23 @@ struct SettledBoundary {
 /// faces: small features are suppressed, and there are more nodes where wires cross or come close. Call it
 /// within on_threads(). Throws Error as mesh() does for invalid options or sizes that exceed the budget.
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
+
+/// Meshes the faces in rounds until no remedy is left, then those that still fail with nodes off their
+/// surfaces and edges, and moves the nodes of all faces together. Throws the first problem of a face unless
+/// options.partial. \return the edges that quads cross, ascending
+std::vector<EdgeId> mesh_faces(const Run& run, Boundary& boundary, Faces& faces);
+
+/// Edges, then vertices, ascending.
+std::vector<ShellMesh::SuppressedFeature> suppressed_features(const Prepared& prepared,
+                                                              const TinyFeatures& tiny);
+
+/// Small faces, then edges, that are kept nevertheless.
+std::vector<ShellMesh::Kept> kept_features(const CadShape& shape, const SuppressedFeatures& suppressed);
+
+/// The faces meshed so far, even past the time limit with options.partial. Throws Error (failure) for a place
+/// of options.sizing.nodes_at where the mesh has no node, unless options.partial.
+/// \param crossed the edges that quads cross
+ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
+                   const std::vector<EdgeId>& crossed);
 
 }  // namespace quadrille
