@@ -14,9 +14,9 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
-#include "mesher/boundary.hpp"
 #include "mesher/faces/grid_waste.hpp"
 #include "mesher/settings.hpp"
+#include "mesher/stages/stages.hpp"
 
 namespace quadrille {
 
@@ -112,21 +112,18 @@ double QuadEstimate::quads(const MeshOptions& options) {
 }
 
 std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
-  check({options, {}}, model_);
-  const SimplifiedModel simple = simplified(model_, options);
-  const CadShape& shape = simple.model.shape();
-  const FaceFlags used = simple.left(faces_used(model_, options));
-  FaceSamples samples = samples_;
-  for (const FaceId id : samples.ids()) {
-    const FaceId whole = simple.taken_by[id];
-    if (whole.exists()) samples[whole].insert(samples[whole].end(), samples_[id].begin(), samples_[id].end());
-  }
   return on_threads(context_.threads(), [&] {
     const SettledBoundary boundary = settle_boundary(model_, options, context_);
-    std::vector<double> counts(shape.faces.size(), 0);
-    for (const FaceId id : shape.faces.ids()) {
-      if (!used[id] || !boundary.meshed[id]) continue;
-      const CadFace& face = shape.faces[id];
+    FaceSamples samples = samples_;
+    for (const FaceId id : samples.ids()) {
+      const FaceId whole = boundary.simple.taken_by[id];
+      if (whole.exists())
+        samples[whole].insert(samples[whole].end(), samples_[id].begin(), samples_[id].end());
+    }
+    std::vector<double> counts(samples.size(), 0);
+    for (const FaceId id : samples.ids()) {
+      if (!boundary.meshed[id]) continue;
+      const CadFace& face = boundary.simple.model.shape().faces[id];
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const FacePlan& plan = nodes.plans[id];

@@ -12,9 +12,9 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/surfaces/surface_triangles.hpp"
-#include "mesher/boundary.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/settings.hpp"
+#include "mesher/stages/prepared.hpp"
 
 namespace quadrille {
 

@@ -15,7 +15,7 @@ sys.dont_write_bytecode = True
 import rooms_test  # noqa: E402
 
 PLACE = ROOT / "docs" / "pictures" / "rooms.svg"
-SETTINGS, RUN = "mesher/*.hpp", "mesher/mesh.cpp"
+SETTINGS, STAGES, RUN = "mesher/*.hpp", "mesher/stages", "mesher/mesh.cpp"
 ABOUT = {
     "geometry/base": "errors, files, threads, child processes",
     "geometry/cad": "reads and repairs the model",
@@ -27,8 +27,9 @@ ABOUT = {
     "mesher/faces": "grids, points, triangles",
     "mesher/pairing": "triangles to quads",
     "mesher/quads": "clean-up, smoothing, repair",
-    SETTINGS: "options, settings, estimate, size map",
+    SETTINGS: "options, settings",
     "mesher/shell": "one face; remedies; all faces together",
+    STAGES: "the stages of a run; estimate, size map",
     "mesher/remesh": "remeshing triangulated surfaces",
     "mesher/io": "mesh files, reports, pictures",
     "mesher/adapt": "sizes from results",
@@ -42,7 +43,8 @@ FLOW = [  # from, to, what is handed on
     ("mesher/faces", "mesher/pairing", "FaceTriangulation"),
     ("mesher/pairing", "mesher/quads", "QuadMesh"),
     ("mesher/quads", "mesher/shell", "SurfaceMesh"),
-    ("mesher/shell", "mesher/io", "ShellMesh"),
+    ("mesher/shell", STAGES, "FaceMesh"),
+    (STAGES, "mesher/io", "ShellMesh"),
 ]
 PACKAGES = {
     "core": "command, settings, errors",
@@ -59,7 +61,9 @@ def group_of(name):
     room = rooms_test.ROOMS[rooms_test.room_of(name)]
     if room in ABOUT:
         return room
-    return RUN if room in ("mesher/quadrille.hpp", "mesher/mesh.cpp") else SETTINGS
+    if room in ("mesher/quadrille.hpp", "mesher/mesh.cpp"):
+        return RUN
+    return STAGES if room.startswith(("mesher/estimate", "mesher/size_map")) else SETTINGS
 
 
 def included():

@@ -29,9 +29,10 @@ bool is_near(const FaceMesh& mesh, double reach) {
   return std::all_of(mesh.off.begin(), mesh.off.end(), [&](double off) { return off <= reach; });
 }
 
-bool has_inverted_quads(const FaceMesh& mesh) {
+template <class Mesh>
+bool has_inverted_quads(const Mesh& mesh) {
   return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return quad_scaled_jacobian(mesh.points, q) <= no_jacobian;
+    return !(quad_scaled_jacobian(mesh.points, q) > no_jacobian);
   });
 }
 
@@ -83,9 +84,7 @@ class LoopMesher {
         const int i = coedge.forward ? first_node + k : last_node - k;
         if (mesh_.nodes.size() > first && mesh_.nodes.back() == edge.nodes[i]) continue;
         mesh_.nodes.push_back(edge.nodes[i]);
-        mesh_.points.push_back(nodes_.points[edge.nodes[i]]);
-        mesh_.uv.push_back(parametric_point(coedge, edge.parameters[i]));
-        mesh_.off.push_back(0);
+        add(nodes_.points[edge.nodes[i]], parametric_point(coedge, edge.parameters[i]));
       }
     }
     if (mesh_.nodes.size() > first + 1 && mesh_.nodes.back() == mesh_.nodes[first]) {
@@ -207,9 +206,7 @@ class Surroundings {
       if (meshes_[id] && !faces_.contains(id))
         for (const int node : meshes_[id]->nodes) fixed[node] = 1;
     unfold_in_space(quads_, fixed, reach, context);
-    return std::all_of(quads_.quads.begin(), quads_.quads.end(), [&](const std::array<int, 4>& q) {
-      return quad_scaled_jacobian(quads_.points, q) > no_jacobian;
-    });
+    return !has_inverted_quads(quads_);
   }
 
   /// Puts the moved nodes back, unless one is farther from its surface than the reach. \return whether it

@@ -39,9 +39,8 @@ bool twice_as_fine(Case& job) {
   job.record.recipe = {.chart = job.record.recipe.chart,
                        .fineness = 2 * job.record.recipe.fineness,
                        .leaves_surface = job.record.recipe.leaves_surface};
-  for (const CadWire& wire : job.shape.faces[job.face].wires)
-    for (const Coedge& coedge : wire.coedges)
-      plan.factor[coedge.edge] = std::max(plan.factor[coedge.edge], job.record.recipe.fineness);
+  for (const EdgeId edge : edges_of(job.shape.faces[job.face]))
+    plan.factor[edge] = std::max(plan.factor[edge], job.record.recipe.fineness);
   return true;
 }
 
@@ -124,11 +123,16 @@ constexpr std::array table{
 
 }  // namespace
 
+std::vector<EdgeId> edges_of(const CadFace& face) {
+  std::vector<EdgeId> result;
+  for (const CadWire& wire : face.wires)
+    for (const Coedge& coedge : wire.coedges) result.push_back(coedge.edge);
+  return result;
+}
+
 double longest_edge(const CadShape& shape, FaceId face) {
   double longest = 0;
-  for (const CadWire& wire : shape.faces[face].wires) {
-    for (const Coedge& coedge : wire.coedges) longest = std::max(longest, shape.edges[coedge.edge].length);
-  }
+  for (const EdgeId edge : edges_of(shape.faces[face])) longest = std::max(longest, shape.edges[edge].length);
   return longest;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,12 @@ struct FaceRecord {
   bool given_up = false;                  ///< no remedy is left
   std::vector<int> tried;                 ///< (rows of the table) how often the remedy was applied
   std::vector<std::string> history;       ///< "cause: remedy" for each remedy applied, in order
+  std::optional<FaceProblem> problem;     ///< why the face has no mesh
+  std::optional<FaceProblem> before;      ///< the problem that was treated last
 };
+
+/// The edges of a face, wire by wire; one that it uses twice comes twice.
+std::vector<EdgeId> edges_of(const CadFace& face);
 
 /// The length of a face's longest edge.
 double longest_edge(const CadShape& shape, FaceId face);

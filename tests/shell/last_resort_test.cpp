@@ -16,9 +16,9 @@
 #include <cmath>
 #include <memory>
 
-#include "mesher/boundary.hpp"
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/stages/stages.hpp"
 #include "tests/support/sheet.hpp"
 
 namespace quadrille {

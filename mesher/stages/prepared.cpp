@@ -1,0 +1,177 @@
+/// Simplifies and divides the model, and decides once what is protected.
+
+#include "mesher/stages/prepared.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/sizing/element_count.hpp"
+#include "geometry/surfaces/stray_edges.hpp"
+#include "mesher/edges/coplanar_faces.hpp"
+#include "mesher/edges/hole_filling.hpp"
+#include "mesher/edges/row_lines.hpp"
+#include "mesher/settings.hpp"
+#include "mesher/shell/remedies.hpp"
+
+namespace quadrille {
+
+FaceFlags faces_used(const CadModel& model, const MeshOptions& options) {
+  FaceFlags used(model.face_count(), options.faces.empty());
+  for (const int face : options.faces) used[FaceId::from_number(face)] = 1;
+  return used;
+}
+
+namespace {
+
+/// With options.fill_holes small holes are filled, and without options.keep_features coplanar faces are
+/// joined, unless options.faces names those to mesh.
+SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bool joins) {
+  const FaceFlags used = faces_used(model, options);
+  SimplifiedModel result = fill_holes(model, used, options.sizing, options.fill_holes);
+  if (joins && !options.keep_features && options.faces.empty())
+    join_coplanar_faces(result, used, options.sizing, size_limits(model, options.sizing));
+  return result;
+}
+
+/// Options by which matched faces and edges keep nodes of their own.
+MeshOptions checked(const CadModel& model, MeshOptions options) {
+  check({options, {}}, model);
+  for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options)))
+    throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
+  SizingOptions& sizing = options.sizing;
+  for (const MatchedPair& pair : sizing.matches)
+    (pair.dimension == 2 ? sizing.kept_faces : sizing.kept_edges).insert({pair.first, pair.second});
+  return options;
+}
+
+double suppression_reach(const SizeLimits& limits, const MeshOptions& options) {
+  constexpr double far_below = 0.5;
+  if (options.keep_features) return 0;
+  return options.reach > 0 ? options.reach : far_below * limits.size_min;
+}
+
+/// The model with edges divided at slivers, except around edges whose nodes users prescribe or match.
+CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& options) {
+  const SizingOptions& sizing = options.sizing;
+  const CadShape& source = model.shape();
+  const auto leave = [&](EdgeId edge) {
+    for (const FaceId face : source.edges[edge].faces) used[face] = 0;
+  };
+  for (const EdgeId id : source.edges.ids()) {
+    const int number = source.edges[id].number;
+    if (sizing.spacings.contains(number) || sizing.layers.edges.contains(number)) leave(id);
+  }
+  for (const MatchedPair& pair : sizing.matches)
+    for (const int number : {pair.first, pair.second}) {
+      if (pair.dimension == 1)
+        leave(EdgeId::from_number(number));
+      else
+        for (const EdgeId edge : edges_of(source.faces[FaceId::from_number(number)])) leave(edge);
+    }
+  const double reach = suppression_reach(size_limits(model, sizing), options);
+  const auto shape = divided_at_slivers(source, used, reach);
+  return shape ? CadModel(shape) : model;
+}
+
+Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
+  const CadShape& shape = prepared.shape;
+  const SizingOptions& sizing = prepared.options.sizing;
+  Protection result{edges_below_size_min(prepared.model, sizing, prepared.limits),
+                    EdgeFlags(shape.edges.size(), prepared.options.keep_features ? 1 : 0),
+                    FaceFlags(shape.faces.size()), prepared.matches.vertices(shape)};
+  for (const PlacedNode& node : prepared.placed.nodes) result.vertices.push_back(node.vertex);
+  for (const EdgeId id : shape.edges.ids()) {
+    const CadEdge& edge = shape.edges[id];
+    const auto& nodes = prepared.placed.nodes;
+    const bool kept = sizing.kept_edges.contains(edge.number) ||
+                      std::any_of(edge.faces.begin(), edge.faces.end(),
+                                  [&](FaceId face) { return sizing.kept_faces.contains(face.number()); });
+    result.lengths[id] |= kept;
+    result.own_nodes[id] |= kept || sizing.names_edge(edge.number) || uncrossed.contains(edge.number) ||
+                            std::any_of(nodes.begin(), nodes.end(), [&](const PlacedNode& node) {
+                              return node.vertex == edge.first_vertex || node.vertex == edge.last_vertex;
+                            });
+  }
+  for (const FaceId face : shape.faces.ids())
+    for (const EdgeId edge : edges_of(shape.faces[face]))
+      result.tips[face] |= prepared.matches.matched_edges[edge];
+  return result;
+}
+
+/// Finds the rows for prescribed divisions and layers: in grids if possible, else along lines of edges.
+GridRows find_rows(const Prepared& prepared, SamplingPlan& plan) {
+  const CadShape& shape = prepared.shape;
+  const SizingOptions& sizing = prepared.options.sizing;
+  const double size = prepared.limits.largest;
+  if (sizing.spacings.empty() && sizing.layers.edges.empty()) return {};
+  IdVector<EdgeId, double> wanted;
+  for (const CadEdge& edge : shape.edges)
+    wanted.push_back(edge.length / (size * stride(prepared.options.strategy)));
+  const auto sides = find_face_sides(shape, prepared.meshed, plan.tiny, wanted);
+  GridRows rows = find_grid_rows(shape, sides, std::move(plan.prescribed), sizing, size);
+  plan.prescribed = rows.prescribed;
+  plan.rows = find_row_lines(shape, sides, prepared.meshed, plan.tiny, plan.prescribed, sizing.layers);
+  for (const EdgeId edge : shape.edges.ids()) rows.layered[edge] |= plan.rows.along[edge];
+  return rows;
+}
+
+}  // namespace
+
+Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Preparation& how)
+    : options(checked(source, settings)),
+      vertices(source.vertex_count()),
+      simple(simplified(source, options, how.joins)),
+      asked(simple.left(faces_used(source, options))),
+      limits(size_limits(source, options.sizing)),
+      placed(how.divides ? place_nodes(simple.model.shape(), asked, options.sizing, limits.largest)
+                         : PlacedNodes()),
+      model(how.divides ? divided(placed.shape ? CadModel(placed.shape) : simple.model, asked, options)
+                        : simple.model),
+      shape(model.shape()),
+      matches(find_matches(shape, options.sizing.matches, asked)),
+      protection(protect(*this, how.uncrossed)),
+      suppressed(shape, asked, suppression_reach(limits, options), protection.lengths, protection.vertices),
+      plan(shape) {
+  constexpr double far_below = 0.02;
+  plan.shortest_segment = far_below * limits.size_min;
+  if (options.strategy == Strategy::subdivide) plan.subdivided.assign(shape.faces.size(), 1);
+  plan.matched = matches.edges;
+  plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
+  meshed = leave_out_tiny(suppressed, FaceFlags(shape.faces.size()), plan);
+  rows = find_rows(*this, plan);
+}
+
+FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips,
+                                   SamplingPlan& to) const {
+  to.tiny = now.find(options.merge_tiny);
+  for (const FaceId face : simple.gone.ids()) to.tiny.merged_faces[face] |= simple.gone[face];
+  FaceFlags left = asked;
+  for (const FaceId face : left.ids()) left[face] = asked[face] && !to.tiny.merged_faces[face];
+  FaceFlags may_end = left;
+  for (const FaceId face : may_end.ids())
+    may_end[face] = left[face] && !to_tips[face] && !protection.tips[face];
+  to.tips = find_tips(shape, may_end, to.tiny, suppression_reach(limits, options));
+  return left;
+}
+
+SizingField sizes_for(const Prepared& prepared, ExecutionContext& context) {
+  const StageTimer timer(context, Stage::size);
+  const MeshOptions& options = prepared.options;
+  SizingOptions sizing = options.sizing;
+  sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options.order);
+  if (options.force) sizing.budget = Budget::unlimited();
+  for (const auto& [vertex, layers] : prepared.plan.rows.steps)
+    sizing.layers.vertices.emplace(vertex.number(), layers);
+  const ElementBudget budget(prepared.model, sizing, prepared.asked, context);
+  SizingField field = SizingField::build(prepared.model, sizing, context,
+                                         {prepared.suppressed.edges(), prepared.plan.tiny.merged_faces,
+                                          prepared.rows.divided, prepared.rows.layered});
+  budget.check(field);
+  return field;
+}
+
+SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
+  return sizes_for(Prepared(model, options, {.divides = false}), context);
+}
+
+}  // namespace quadrille

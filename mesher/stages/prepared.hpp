@@ -1,0 +1,72 @@
+#pragma once
+/// First stage of a run: the model that is meshed, and what must stay as it is. Internal.
+
+#include <set>
+#include <vector>
+
+#include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_model.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "mesher/edges/edge_sampling.hpp"
+#include "mesher/edges/grid_rows.hpp"
+#include "mesher/edges/matching.hpp"
+#include "mesher/edges/placed_nodes.hpp"
+#include "mesher/edges/simplified_model.hpp"
+#include "mesher/edges/suppressed_features.hpp"
+#include "mesher/options.hpp"
+
+namespace quadrille {
+
+/// 1 = the options ask for this face to be meshed.
+FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
+
+/// What users or matched pairs keep from being suppressed, cut short or crossed.
+struct Protection {
+  EdgeFlags lengths;               ///< 1 = the edge must not become a point
+  EdgeFlags own_nodes;             ///< 1 = the edge keeps nodes of its own: no quad crosses it
+  FaceFlags tips;                  ///< 1 = the face must not end before its tips
+  std::vector<VertexId> vertices;  ///< they share their nodes with no other
+};
+
+struct Preparation {
+  bool divides = true;  ///< edges at slivers and placed nodes: they and vertices then differ from the model's
+  bool joins = true;    ///< coplanar faces may be joined
+  std::set<int> uncrossed{};  ///< numbers of edges that no quad may cross
+};
+
+/// Does not change in a run.
+struct Prepared {
+  /// Throws Error: usage for invalid options, failure for edges far outside the model.
+  Prepared(const CadModel& source, const MeshOptions& settings, const Preparation& how = {});
+  Prepared(const Prepared&) = delete;
+  Prepared& operator=(const Prepared&) = delete;
+
+  /// Leaves out what is too small, in `plan`, and finds the tips before which faces end.
+  /// \param to_tips 1 = the face does not end before its tips. \return 1 = the face is meshed
+  FaceFlags leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips, SamplingPlan& plan) const;
+
+  MeshOptions options;  ///< with matched faces and edges among those to keep
+  int vertices;         ///< of the model; the others divide edges or are placed inside faces
+  SimplifiedModel simple;
+  FaceFlags asked;  ///< 1 = is to be meshed, unless it is tiny
+  SizeLimits limits;
+  PlacedNodes placed;
+  CadModel model;
+  const CadShape& shape;
+  Matches matches;
+  Protection protection;
+  SuppressedFeatures suppressed;  ///< to begin with
+  SamplingPlan plan;              ///< to begin with
+  FaceFlags meshed;               ///< to begin with, see leave_out_tiny()
+  GridRows rows;
+};
+
+/// The sizing field. Suppressed features request no sizes. Throws Error (usage) if the sizes exceed the
+/// budget.
+SizingField sizes_for(const Prepared& prepared, ExecutionContext& context);
+
+/// The sizing field that mesh() uses. Call it within on_threads(). Throws Error as mesh() does for invalid
+/// options or sizes that exceed the budget.
+SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
+
+}  // namespace quadrille
