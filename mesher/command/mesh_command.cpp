@@ -310,7 +310,7 @@ void add_mesh_command(CLI::App& app) {
   command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
+                   "mesh file: " + written_endings("or") + "; may be given more than once")
       ->required()
       ->allow_extra_args(false);
   add_settings(*command, *arguments);

@@ -118,15 +118,11 @@ void add_remesh_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("remesh", "remesh a triangulated surface, such as a scan, with quads");
   auto arguments = std::make_shared<RemeshArguments>();
-  command
-      ->add_option(
-          "SURFACE", arguments->input,
-          "triangles, or triangles and quads: .stl, .obj, .ply, .msh, .inp, .unv, .bdf, .nas, .dat, .vtk, "
-          ".vtu or .vtp")
+  command->add_option("SURFACE", arguments->input, "triangles, or triangles and quads: " + read_endings("or"))
       ->required();
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
+                   "mesh file: " + written_endings("or") + "; may be given more than once")
       ->required()
       ->allow_extra_args(false);
   add_settings(
