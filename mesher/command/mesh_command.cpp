@@ -261,9 +261,7 @@ void run(const MeshArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(settings.threads, display.reporter());
   std::vector<Stage> stages{Stage::read,  Stage::size,     Stage::sample, Stage::mesh,
                             Stage::slide, Stage::assemble, Stage::write};
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);

@@ -39,9 +39,7 @@ void run(const RecombineArguments& arguments) {
   check(arguments);
   const std::string name = arguments.input.string();
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.options.settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(arguments.options.settings.threads, display.reporter());
   context.expect({Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
   const CancelOnSignal cancel(context);
   ShellMesh input;

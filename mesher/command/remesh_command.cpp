@@ -76,9 +76,7 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(arguments.settings.threads, display.reporter());
   context.expect(
       {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
