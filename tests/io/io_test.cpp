@@ -191,7 +191,9 @@ TEST(Formats, EachRowOfTheTableIsReadAndWritten) {
     const auto& all = all_settings();
     return std::find_if(all.begin(), all.end(), [&](const Setting& row) { return row.name == name; });
   };
-  for (const auto& row : nlohmann::json::parse(tables_json()).at("formats")) {
+  const auto tables = nlohmann::json::parse(tables_json());
+  ASSERT_FALSE(tables.at("formats").empty());
+  for (const auto& row : tables.at("formats")) {
     const std::string ending = row.at("ending");
     const auto path = folder / ("a" + ending);
     if (row.at("written")) {
