@@ -1,5 +1,6 @@
 """The manual: links lead somewhere, README is short, every page is in the site."""
 
+import json
 import pathlib
 import re
 import shutil
@@ -43,6 +44,15 @@ class Docs(unittest.TestCase):
                     wrong.append(f"{page.relative_to(ROOT)}: {link}: there is no such heading")
         self.assertEqual(wrong, [])
         self.assertGreater(count, 40)
+
+    def test_formats_are_those_of_the_table(self):
+        """docs/formats.md has a row for each format: first those that are written, then those that are read."""
+        formats = json.loads((ROOT / "workbench" / "quadrille" / "tables.json").read_text(encoding="utf-8"))["formats"]
+        page = (ROOT / "docs" / "formats.md").read_text(encoding="utf-8")
+        for way, header in (("written", "| extension | contents |"), ("read", "| extension | what is read |")):
+            rows = page.split(header)[1].split("\n\n")[0].splitlines()[2:]
+            told = [ending for row in rows for ending in re.findall(r"`(\.\w+)`", row.split("|")[1])]
+            self.assertEqual(sorted(told), sorted(row["ending"] for row in formats if row[way]))
 
     def test_readme_is_short(self):
         self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 120)

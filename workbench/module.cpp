@@ -352,9 +352,8 @@ void bind_mesh(py::module_& module) {
           },
           py::arg("path"), py::kw_only(), py::arg("title") = "",
           documented("write(self, path, *, title=''" + settings_signature(Setting::Use::write) + ")",
-                     "Writes the mesh, lengths in mm; the format follows from the ending: .msh, .inp, .unv, "
-                     ".bdf, .med, .vtu, .vtk.\n\n" +
-                         settings_help(Setting::Use::write))
+                     "Writes the mesh, lengths in mm; the format follows from the ending: " +
+                         written_endings("or") + ".\n\n" + settings_help(Setting::Use::write))
               .c_str())
       .def(
           "picture",
@@ -478,8 +477,7 @@ void bind_functions(py::module_& module) {
       },
       py::arg("path"),
       documented("read_mesh(path)",
-                 "Reads a surface mesh: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, .obj, .ply, .vtk, .vtu or "
-                 ".vtp. Raises quadrille.Error.")
+                 "Reads a surface mesh: " + read_endings("or") + ". Raises quadrille.Error.")
           .c_str());
   bind_recombine(module);
   module.def(

@@ -70,7 +70,7 @@ void require_possible(const NamedFile& output) {
   if (!output.ending.empty() && lower_ending(output.path) != output.ending)
     throw usage_error(output.argument, fmt::format("{}: the file name must end in {}, not {}",
                                                    output.argument, output.ending, output.path.string()));
-  if (!output.ending.empty()) require_module(output.ending);
+  if (output.ending == ".png") require_library(Library::pictures, output.ending);
   require_writable(output.path);
 }
 

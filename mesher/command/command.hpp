@@ -102,6 +102,10 @@ class ProgressDisplay {
 
   /// Shows a stage and the fraction done. Always returns true: it never cancels.
   bool show(std::string_view stage, double fraction);
+  /// show(), for a context that does not outlive the display.
+  auto reporter() {
+    return [this](std::string_view stage, double fraction) { return show(stage, fraction); };
+  }
 
  private:
   void draw_bar(std::string_view stage, int percent);

@@ -261,9 +261,7 @@ void run(const MeshArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(settings.threads, display.reporter());
   std::vector<Stage> stages{Stage::read,  Stage::size,     Stage::sample, Stage::mesh,
                             Stage::slide, Stage::assemble, Stage::write};
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
@@ -310,7 +308,7 @@ void add_mesh_command(CLI::App& app) {
   command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
+                   "mesh file: " + written_endings("or") + "; may be given more than once")
       ->required()
       ->allow_extra_args(false);
   add_settings(*command, *arguments);

@@ -28,8 +28,7 @@ void run(const Arguments& arguments) {
   add(files.outputs, "-o", arguments.outputs);
   require_usable(files);
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(
-      1, [&](std::string_view stage, double fraction) { return display.show(stage, fraction); });
+  ExecutionContext context(1, display.reporter());
   report_crashes(arguments.input, "reading");
   context.expect({Stage::read, Stage::midsurface});
   CancelOnSignal cancel(context, arguments.settings.time_limit);

@@ -15,10 +15,7 @@ void add_quality_command(CLI::App& app) {
       "quality", "measure a mesh: counts, q, Jacobians, valence, and quads that fail the industry criteria");
   auto input = std::make_shared<std::filesystem::path>();
   auto limits_option = std::make_shared<LimitsOption>();
-  command
-      ->add_option("MESH", *input,
-                   "mesh file: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, .obj, .ply, .vtk, .vtu or .vtp")
-      ->required();
+  command->add_option("MESH", *input, "mesh file: " + read_endings("or"))->required();
   limits_option->add_to(*command);
   auto size_min = std::make_shared<double>(0);
   command

@@ -39,9 +39,7 @@ void run(const RecombineArguments& arguments) {
   check(arguments);
   const std::string name = arguments.input.string();
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.options.settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(arguments.options.settings.threads, display.reporter());
   context.expect({Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
   const CancelOnSignal cancel(context);
   ShellMesh input;
@@ -95,12 +93,9 @@ void add_recombine_command(CLI::App& app) {
   auto arguments = std::make_shared<RecombineArguments>();
   command
       ->add_option("TRI", arguments->input,
-                   "mesh of triangles, or of triangles and quads: .msh, .inp, .unv, .bdf, .nas, .dat, .stl, "
-                   ".obj, .ply, .vtk, .vtu or .vtp")
+                   "mesh of triangles, or of triangles and quads: " + read_endings("or"))
       ->required();
-  command
-      ->add_option("-o,--output", arguments->output, "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf")
-      ->required();
+  command->add_option("-o,--output", arguments->output, "mesh file: " + written_endings("or"))->required();
   command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
       ->check([](const std::string& text) { return seed_problem(text); });
   command->add_flag("--no-improve", arguments->no_improve,

@@ -76,9 +76,7 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(arguments.settings.threads, display.reporter());
   context.expect(
       {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
@@ -118,15 +116,11 @@ void add_remesh_command(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("remesh", "remesh a triangulated surface, such as a scan, with quads");
   auto arguments = std::make_shared<RemeshArguments>();
-  command
-      ->add_option(
-          "SURFACE", arguments->input,
-          "triangles, or triangles and quads: .stl, .obj, .ply, .msh, .inp, .unv, .bdf, .nas, .dat, .vtk, "
-          ".vtu or .vtp")
+  command->add_option("SURFACE", arguments->input, "triangles, or triangles and quads: " + read_endings("or"))
       ->required();
   command
       ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: .msh, .inp, .unv, .med, .vtu, .vtk or .bdf; may be given more than once")
+                   "mesh file: " + written_endings("or") + "; may be given more than once")
       ->required()
       ->allow_extra_args(false);
   add_settings(

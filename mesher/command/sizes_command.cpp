@@ -158,9 +158,7 @@ void run(const SizesArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
   ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(settings.threads, [&](std::string_view stage, double fraction) {
-    return display.show(stage, fraction);
-  });
+  ExecutionContext context(settings.threads, display.reporter());
   context.expect({Stage::read, Stage::size, Stage::write});
   report_crashes(arguments.input, "reading");
   CancelOnSignal cancel(context, settings.time_limit);

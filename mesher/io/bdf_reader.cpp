@@ -150,13 +150,9 @@ class BdfReader {
       if (const std::size_t sign = text.find_last_of("+-"); sign != std::string::npos && sign > 0)
         text.insert(sign, 1, 'E');
     }
-    double value = 0;
-    const char* first = text.data() + (text.front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw cursor_.error_before(
-          fmt::format("expected a coordinate in the {} before this line, found \"{}\"", card.name, given));
-    return value;
+    if (const std::optional<double> value = parsed<double>(text)) return *value;
+    throw cursor_.error_before(
+        fmt::format("expected a coordinate in the {} before this line, found \"{}\"", card.name, given));
   }
 
   void add_node(const Card& card) {
@@ -195,11 +191,8 @@ class BdfReader {
   /// Property names: $HMNAME COMP 3"name", $HMNAME PROP 3"name" or (ANSA) $ANSA_NAME_COMMENT;3;PSHELL;name;
   void read_comment(std::string_view line) {
     const auto add = [&](std::string_view number, std::string_view name) {
-      int property = 0;
-      number = trimmed(number);
-      const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), property);
-      if (error == std::errc() && end == number.data() + number.size() && !trimmed(name).empty())
-        names_[property] = trimmed(name);
+      const std::optional<int> property = parsed<int>(trimmed(number));
+      if (property && !trimmed(name).empty()) names_[*property] = trimmed(name);
     };
     const auto cut = [&](char mark) {
       const std::size_t end = std::min(line.find(mark), line.size());

@@ -30,16 +30,11 @@ std::string_view field_of(double value, int columns, char (&text)[40]) {
   return {text, static_cast<std::size_t>(end - text)};
 }
 
-constexpr std::size_t narrow = 8, wide = 16;
+constexpr int narrow = 8, wide = 16;
 
-/// Writes text right-aligned in a field.
-void write_field(std::string_view text, std::size_t columns, TextWriter& out) {
-  for (std::size_t i = text.size(); i < columns; ++i) out << ' ';
-  out << text;
-}
-void write_real(double value, TextWriter& out, std::size_t columns = wide) {
+void write_real(double value, TextWriter& out, int columns = wide) {
   char text[40];
-  write_field(field_of(value, static_cast<int>(columns), text), columns, out);
+  out.padded(field_of(value, columns, text), columns);
 }
 
 /// "SET 3 = 1 THRU 7,9": consecutive numbers become a range, lines stay under 72 columns.
@@ -68,20 +63,13 @@ void write_set(int set, const std::string& name, const char* of_what, const std:
 
 void write_sets(const OutputMesh& mesh, TextWriter& out) {
   int set = 0;
-  for (const NamedGroup& group : mesh.groups(2)) {
-    std::vector<int> numbers = mesh.members(2, group);
-    for (int& number : numbers) ++number;
-    write_set(++set, group.name, "elements", numbers, out);
-  }
+  for (const NamedGroup& group : mesh.groups(2))
+    write_set(++set, group.name, "elements", OutputMesh::numbers_of(mesh.members(2, group)), out);
   for (const int dimension : {1, 0})
     for (const NamedGroup& group : mesh.groups(dimension))
       write_set(++set, group.name, "grids", mesh.node_numbers(dimension, group), out);
-  for (const ThicknessGroup& group : mesh.thicknesses()) {
-    std::vector<int> numbers = group.members;
-    for (int& number : numbers) ++number;
-    std::sort(numbers.begin(), numbers.end());
-    write_set(++set, group.name, "elements", numbers, out);
-  }
+  for (const ThicknessGroup& group : mesh.thicknesses())
+    write_set(++set, group.name, "elements", OutputMesh::numbers_of(group.members), out);
 }
 
 const char* card(const ElementNodes& element) {
@@ -141,7 +129,7 @@ void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& 
     const Vector3& point = mesh.point(static_cast<int>(i));
     to << "GRID*   ";
     to.padded(static_cast<int>(i) + 1, wide);
-    write_field({}, wide, to);
+    to.padded("", wide);
     write_real(point.x(), to);
     write_real(point.y(), to);
     to << "\n*       ";

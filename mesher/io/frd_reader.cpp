@@ -4,14 +4,13 @@
 #include "mesher/io/result_reader.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
 
 #include <fmt/format.h>
 
-#include "geometry/base/error.hpp"
+#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille {
 
@@ -19,7 +18,7 @@ namespace {
 
 class FrdReader {
  public:
-  FrdReader(std::string_view bytes, std::string name) : rest_(bytes), name_(std::move(name)) {}
+  FrdReader(std::string_view bytes, const std::string& name) : cursor_(bytes, name) {}
 
   SolverResult read() {
     while (next_line()) {
@@ -37,18 +36,14 @@ class FrdReader {
   }
 
  private:
-  Error bad(const std::string& what) const { return failure(name_, fmt::format("{} {}", name_, what)); }
-  Error bad_line(const std::string& what) const {
-    return failure(name_, fmt::format("{}: line {}: {}", name_, number_, what));
+  Error bad(const std::string& what) const {
+    return failure(cursor_.name(), fmt::format("{} {}", cursor_.name(), what));
   }
+  Error bad_line(const std::string& what) const { return cursor_.error_before(what); }
 
   bool next_line() {
-    if (rest_.empty()) return false;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    line_ = rest_.substr(0, end);
-    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++number_;
+    if (cursor_.at_end()) return false;
+    line_ = cursor_.line();
     return true;
   }
 
@@ -61,12 +56,9 @@ class FrdReader {
     std::string_view text = field(start, width);
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
     while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    if (const std::optional<Number> value = parsed<Number>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw bad_line(fmt::format("'{}' is not a number", text));
-    return value;
+    throw bad_line(fmt::format("'{}' is not a number", text));
   }
 
   /// Column where values start in the lines of the block that the current line begins, from 0: 13 or 8.
@@ -139,9 +131,8 @@ class FrdReader {
   }
 
   static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  std::string_view rest_, line_;
-  std::string name_;
-  std::size_t number_ = 0;
+  TextCursor cursor_;
+  std::string_view line_;
   std::unordered_map<int, int> indices_;
   SolverResult result_;
 };

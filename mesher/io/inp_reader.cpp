@@ -18,11 +18,15 @@ namespace quadrille {
 
 namespace {
 
+std::string without_blanks_and_quotes(std::string_view text) {
+  std::string result(text);
+  std::erase_if(result, [](char c) { return c == ' ' || c == '\t' || c == '"'; });
+  return result;
+}
+
 std::string upper_trimmed(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    if (c != ' ' && c != '\t' && c != '"')
-      result += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  std::string result = without_blanks_and_quotes(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return result;
 }
 
@@ -95,10 +99,8 @@ class InpReader {
     FileSet& set = sets[upper_name];
     if (!set.name.empty()) return &set;
     // `text` is the line in upper case without blanks and quotes; here the case is kept.
-    std::string plain;
-    for (const char c : line)
-      if (c != ' ' && c != '\t' && c != '"') plain += c;
-    set.name = plain.substr(text.find("," + key + "=") + key.size() + 2, upper_name.size());
+    set.name = without_blanks_and_quotes(line).substr(text.find("," + key + "=") + key.size() + 2,
+                                                      upper_name.size());
     return &set;
   }
 
@@ -157,21 +159,16 @@ class InpReader {
   /// Cuts the next comma-separated field off the line and trims it.
   static std::string_view field(std::string_view& line) {
     const std::size_t comma = line.find(',');
-    std::string_view result = line.substr(0, comma);
+    const std::string_view result = trimmed(line.substr(0, comma));
     line = comma == std::string_view::npos ? std::string_view{} : line.substr(comma + 1);
-    const std::size_t begin = result.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    return result.substr(begin, result.find_last_not_of(" \t") - begin + 1);
+    return result;
   }
 
   template <class T>
   T number(std::string_view text, const char* what) const {
-    T value{};
+    if (const std::optional<T> value = parsed<T>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw cursor_line(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
-    return value;
+    throw cursor_line(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
   }
 
   void read_node(std::string_view line) {

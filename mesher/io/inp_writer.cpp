@@ -121,11 +121,10 @@ void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames&
   }
   out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    std::vector<int> elements = written[i] ? std::vector<int>() : mesh.members(2, groups[i]);
-    if (elements.empty()) continue;
-    for (int& element : elements) ++element;
+    const std::vector<int> shells = written[i] ? std::vector<int>() : mesh.members(2, groups[i]);
+    if (shells.empty()) continue;
     out << "*ELSET, ELSET=" << names.of(2, i) << '\n';
-    write_list(elements, out);
+    write_list(OutputMesh::numbers_of(shells), out);
   }
 }
 
@@ -218,14 +217,10 @@ void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
   const bool is_thick = family != InpFamily::axisymmetric;
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     out << "*ELSET, ELSET=" << group.name << '\n';
-    if (mesh.groups(2).empty()) {  // no sets of faces were asked for
-      std::vector<int> elements = group.members;
-      for (int& element : elements) ++element;
-      std::sort(elements.begin(), elements.end());
-      write_list(elements, out);
-    } else {
+    if (mesh.groups(2).empty())  // no sets of faces were asked for
+      write_list(OutputMesh::numbers_of(group.members), out);
+    else
       for (const int face : group.faces) out << "Face" << face << '\n';
-    }
     out << section_card(family) << ", ELSET=" << group.name << ", MATERIAL=Material"
         << (group.varies && is_thick ? ", NODAL THICKNESS\n" : "\n");
     if (is_thick) out << group.thickness << '\n';

@@ -1,4 +1,4 @@
-/// Maps endings to the reader or writer of a format; modules are opened only for formats that need them.
+/// The table of mesh formats. Modules are opened only for formats that need them.
 
 #include "mesher/io/io.hpp"
 
@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
@@ -25,57 +28,114 @@ namespace quadrille {
 
 namespace {
 
-void write_text(const OutputMesh& mesh, const std::string& ending, const WriteOptions& options,
-                const std::vector<double>& qualities, TextWriter& out) {
-  if (ending == ".unv")
-    write_unv(mesh, out);
-  else if (ending == ".bdf")
-    write_bdf(mesh, options, out);
-  else if (ending == ".vtk")
-    write_vtk(mesh, options, qualities, out);
-  else if (options.msh_version == MshVersion::v4_1)
-    write_msh4(mesh, out);
+/// A mesh on its way into a file.
+struct Writing {
+  const ShellMesh& mesh;
+  const OutputMesh& output;  ///< the same mesh, in the coordinates of the model
+  const std::filesystem::path& path;
+  const WriteOptions& options;
+};
+
+void write_msh(const Writing& writing, TextWriter& out) {
+  if (writing.options.msh_version == MshVersion::v4_1)
+    write_msh4(writing.output, out);
   else
-    write_msh2(mesh, out);
+    write_msh2(writing.output, out);
 }
 
-/// \param output the mesh in the coordinates of the model.
-void write_inp_text(const ShellMesh& mesh, const OutputMesh& output, const std::string& name,
-                    const WriteOptions& options, TextWriter& out) {
-  if (!lies_in_plane(options.element)) {
-    write_inp(output, options, "", out);
-  } else {
-    const PlaneMesh plane = in_plane(mesh, options.element, name);
-    write_inp(OutputMesh(plane.mesh, options.groups), options, plane.turn, out);
-  }
+void write_inp(const Writing& writing, TextWriter& out) {
+  const WriteOptions& options = writing.options;
+  if (!lies_in_plane(options.element)) return write_inp(writing.output, options, "", out);
+  const PlaneMesh plane = in_plane(writing.mesh, options.element, writing.path.string());
+  write_inp(OutputMesh(plane.mesh, options.groups), options, plane.turn, out);
 }
 
-void write_format(const ShellMesh& mesh, const std::filesystem::path& path, WriteOptions options,
-                  AtomicFile& file) {
-  const std::string ending = lower_ending(path);
-  // Solvers would take the text after a line break in the title for a keyword.
-  options.title = options.title.empty() ? "Quadrille mesh" : printable(options.title, "?");
-  const OutputMesh output(mesh, options.groups, options.quad_nodes);
-  const bool tells_quality = ending == ".vtu" || ending == ".vtk";
-  const std::vector<double> qualities = tells_quality ? quad_qualities(mesh) : std::vector<double>();
-  if (ending == ".med") {
-    file.write(med_file(output, printable(path.stem().string(), "?"), options.title));
-  } else if (ending == ".vtu") {
-    file.write(vtu_file(output, qualities));
-  } else {
-    TextWriter out(file);
-    on_threads(options.threads, [&] {
-      if (ending == ".inp")
-        write_inp_text(mesh, output, path.string(), options, out);
-      else
-        write_text(output, ending, options, qualities, out);
-    });
-    out.flush();
-  }
+void write_unv(const Writing& writing, TextWriter& out) {
+  write_unv(writing.output, out);
 }
 
-constexpr std::string_view readable[] = {".msh", ".inp", ".unv", ".bdf", ".nas", ".dat",
-                                         ".stl", ".obj", ".ply", ".vtk", ".vtu", ".vtp"};
+void write_bdf(const Writing& writing, TextWriter& out) {
+  write_bdf(writing.output, writing.options, out);
+}
+
+void write_vtk(const Writing& writing, TextWriter& out) {
+  write_vtk(writing.output, writing.options, quad_qualities(writing.mesh), out);
+}
+
+/// Writes a file by a function that writes text, with the threads of the options.
+template <void (*write)(const Writing&, TextWriter&)>
+void as_text(const Writing& writing, AtomicFile& file) {
+  TextWriter out(file);
+  on_threads(writing.options.threads, [&] { write(writing, out); });
+  out.flush();
+}
+
+void write_med(const Writing& writing, AtomicFile& file) {
+  file.write(med_file(writing.output, printable(writing.path.stem().string(), "?"), writing.options.title));
+}
+
+void write_vtu(const Writing& writing, AtomicFile& file) {
+  file.write(vtu_file(writing.output, quad_qualities(writing.mesh)));
+}
+
+/// Reads a file by a function that takes its bytes.
+template <ShellMesh (*read)(std::string_view, const std::string&, std::vector<std::string>*)>
+ShellMesh from_bytes(const std::filesystem::path& path, std::vector<std::string>* notes) {
+  return read(whole_file(path), path.string(), notes);
+}
+
+/// One format: whatever tells formats apart is here.
+struct Format {
+  std::string_view ending;
+  std::string_view name;  ///< for people; the programs that use it, if the name is not one of those
+  ShellMesh (*read)(const std::filesystem::path& path, std::vector<std::string>* notes);  ///< null: not read
+  void (*write)(const Writing& writing, AtomicFile& file);  ///< null: not written
+  bool for_solvers = false;  ///< whether solvers read it: the mesh is then of second order by default
+  bool nine_nodes = false;   ///< whether it can hold quads of nine nodes
+  Library writer_needs = Library::none;
+  std::size_t longest_name = 0;  ///< bytes that a file name may have without its ending; 0 = any number
+};
+
+constexpr Format formats[] = {
+    {".msh", "Gmsh", from_bytes<read_msh>, as_text<write_msh>, false, true},
+    {".inp", "CalculiX, Abaqus", from_bytes<read_inp>, as_text<write_inp>, true, false},
+    {".unv", "I-DEAS universal", from_bytes<read_unv>, as_text<write_unv>, true, false},
+    {".bdf", "Nastran", from_bytes<read_bdf>, as_text<write_bdf>, true, false},
+    {".nas", "Nastran", from_bytes<read_bdf>, nullptr},
+    {".dat", "Nastran", from_bytes<read_bdf>, nullptr},
+    {".med", "MED (Salome, Code_Aster)", nullptr, write_med, true, true, Library::med, 64},
+    {".stl", "STL", read_by_vtk, nullptr},
+    {".obj", "Wavefront", read_by_vtk, nullptr},
+    {".ply", "PLY", read_by_vtk, nullptr},
+    {".vtk", "VTK legacy", read_by_vtk, as_text<write_vtk>, false, true},
+    {".vtu", "VTK XML (ParaView)", read_by_vtk, write_vtu, false, true, Library::vtk},
+    {".vtp", "VTK XML surfaces", read_by_vtk, nullptr},
+};
+
+/// The row of the file's ending; null if there is none.
+const Format* format_of(const std::filesystem::path& path) {
+  const auto found = std::find_if(std::begin(formats), std::end(formats),
+                                  [&](const Format& format) { return format.ending == lower_ending(path); });
+  return found == std::end(formats) ? nullptr : found;
+}
+
+/// The endings of the formats that have a property: ".msh, .med or .vtu".
+template <class Property>
+std::string endings(std::string_view last_word, Property&& property) {
+  std::vector<std::string_view> found;
+  for (const Format& format : formats)
+    if (std::invoke(property, format)) found.push_back(format.ending);
+  return fmt::format("{} {} {}", fmt::join(found.begin(), found.end() - 1, ", "), last_word, found.back());
+}
+
+/// The format of a file to write. Throws Error (usage) if there is no writer for it.
+const Format& written_format(const std::filesystem::path& path) {
+  const Format* format = format_of(path);
+  if (format == nullptr || format->write == nullptr)
+    throw usage_error(path.string(), fmt::format("{}: unknown mesh format (known are {})", path.string(),
+                                                 written_endings("and")));
+  return *format;
+}
 
 }  // namespace
 
@@ -90,37 +150,49 @@ std::string whole_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-bool is_mesh_format(const std::filesystem::path& path) {
-  constexpr std::string_view known[] = {".msh", ".inp", ".unv", ".bdf", ".med", ".vtu", ".vtk"};
-  return std::find(std::begin(known), std::end(known), lower_ending(path)) != std::end(known);
+std::string written_endings(std::string_view last_word) {
+  return endings(last_word, [](const Format& format) { return format.write != nullptr; });
+}
+
+std::string read_endings(std::string_view last_word) {
+  return endings(last_word, [](const Format& format) { return format.read != nullptr; });
 }
 
 bool is_solver_format(const std::filesystem::path& path) {
-  constexpr std::string_view read_by_solvers[] = {".inp", ".unv", ".med", ".bdf"};
-  return std::find(std::begin(read_by_solvers), std::end(read_by_solvers), lower_ending(path)) !=
-         std::end(read_by_solvers);
+  const Format* format = format_of(path);
+  return format != nullptr && format->for_solvers;
+}
+
+std::string tables_json() {
+  using json = nlohmann::ordered_json;
+  json known = json::array(), criteria = json::array();
+  for (const Format& format : formats)
+    known.push_back({{"ending", format.ending},
+                     {"name", format.name},
+                     {"read", format.read != nullptr},
+                     {"written", format.write != nullptr},
+                     {"for_solvers", format.for_solvers},
+                     {"nine_nodes", format.nine_nodes}});
+  for (const CriterionInfo& info : criteria_info)
+    criteria.push_back({{"name", info.name},
+                        {"unit", info.unit},
+                        {"ideal", info.ideal},
+                        {"limit", std::isnan(info.usual_limit) ? json() : json(info.usual_limit)}});
+  return json{{"formats", known}, {"criteria", criteria}}.dump(1);
 }
 
 void check_format(const std::filesystem::path& path, int quad_nodes) {
-  if (!is_mesh_format(path))
-    throw usage_error(path.string(),
-                      fmt::format("{}: unknown mesh format (known are .msh, .inp, .unv, .bdf, .med, "
-                                  ".vtu and .vtk)",
-                                  path.string()));
-  const std::string ending = lower_ending(path);
-  require_module(ending);
-  if (quad_nodes == 9 && (ending == ".inp" || ending == ".unv" || ending == ".bdf"))
-    throw usage_error(
-        "nodes",
-        fmt::format("{}: this format has no nine-node quads: `nodes` 9 is for .msh, .med, .vtu and .vtk",
-                    path.string()));
-  constexpr std::size_t longest_name = 64;  // bytes of a mesh name in MED
+  const Format& format = written_format(path);
+  require_library(format.writer_needs, format.ending);
+  if (quad_nodes == 9 && !format.nine_nodes)
+    throw usage_error("nodes", fmt::format("{}: this format has no nine-node quads: `nodes` 9 is for {}",
+                                           path.string(), endings("and", &Format::nine_nodes)));
   const std::size_t name = path.stem().string().size();
-  if (ending == ".med" && name > longest_name)
+  if (format.longest_name > 0 && name > format.longest_name)
     throw usage_error(path.string(),
-                      fmt::format("{}: without its ending the file name has {} bytes, and the mesh in a .med "
+                      fmt::format("{}: without its ending the file name has {} bytes, and the mesh in a {} "
                                   "file, which has the same name, can have {}: give the file a shorter name",
-                                  path.string(), name, longest_name));
+                                  path.string(), name, format.ending, format.longest_name));
 }
 
 void check_element(InpElement element, int order) {
@@ -135,7 +207,11 @@ void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const 
   check_format(path, mesh.order == 1 ? 4 : options.quad_nodes);
   if (lower_ending(path) == ".inp") check_element(options.element, mesh.order);
   AtomicFile file(path);
-  write_format(mesh, path, options, file);
+  WriteOptions titled = options;
+  // Solvers would take the text after a line break in the title for a keyword.
+  titled.title = options.title.empty() ? "Quadrille mesh" : printable(options.title, "?");
+  written_format(path).write({mesh, OutputMesh(mesh, options.groups, options.quad_nodes), path, titled},
+                             file);
   file.commit();
 }
 
@@ -151,21 +227,12 @@ void write_size_picture(const SizeMap& map, const std::filesystem::path& path, i
   write_file(path, size_picture(map, width, height));
 }
 
-bool is_readable_format(const std::filesystem::path& path) {
-  return std::find(std::begin(readable), std::end(readable), lower_ending(path)) != std::end(readable);
-}
-
 ShellMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
-  const std::string ending = lower_ending(path), name = path.string();
-  if (!is_readable_format(path))
-    throw failure(name,
-                  fmt::format("{}: unknown mesh format (known are {})", name, fmt::join(readable, ", ")));
-  if (ending == ".msh") return read_msh(whole_file(path), name, notes);
-  if (ending == ".inp") return read_inp(whole_file(path), name, notes);
-  if (ending == ".unv") return read_unv(whole_file(path), name, notes);
-  if (ending == ".bdf" || ending == ".nas" || ending == ".dat")
-    return read_bdf(whole_file(path), name, notes);
-  return read_by_vtk(path, notes);
+  const Format* format = format_of(path);
+  if (format == nullptr || format->read == nullptr)
+    throw failure(path.string(),
+                  fmt::format("{}: unknown mesh format (known are {})", path.string(), read_endings("and")));
+  return format->read(path, notes);
 }
 
 }  // namespace quadrille

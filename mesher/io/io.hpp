@@ -33,14 +33,18 @@ QUADRILLE_API void check_format(const std::filesystem::path& path, int quad_node
 /// Throws Error (usage) if .inp files cannot have this element type for a mesh of this order.
 QUADRILLE_API void check_element(InpElement element, int order);
 
-/// True if write_mesh knows the file's ending.
-QUADRILLE_API bool is_mesh_format(const std::filesystem::path& path);
+/// The endings of the files that write_mesh() knows: ".msh, .inp and .med". \param last_word the word before
+/// the last ending, such as "or".
+QUADRILLE_API std::string written_endings(std::string_view last_word);
 
-/// True for the formats that solvers read: .inp, .unv, .med, .bdf.
+/// The same of read_mesh().
+QUADRILLE_API std::string read_endings(std::string_view last_word);
+
+/// True for the formats that solvers read: .inp, .unv, .bdf, .med.
 QUADRILLE_API bool is_solver_format(const std::filesystem::path& path);
 
-/// True if read_mesh knows the file's ending.
-QUADRILLE_API bool is_readable_format(const std::filesystem::path& path);
+/// The tables of mesh formats and of quality criteria as a JSON object, for other programs.
+QUADRILLE_API std::string tables_json();
 
 /// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary), Abaqus/CalculiX .inp, I-deas .unv,
 /// Nastran .bdf (.nas, .dat), .stl, .obj, .ply, .vtk, .vtu, .vtp. Sets and physical groups are in

@@ -16,32 +16,20 @@ namespace quadrille {
 
 namespace {
 
-/// What each module is for, and whether this build has it.
-struct BuildPart {
-  std::string_view ending;
-  bool has;
-  std::string_view needs;
-};
-constexpr BuildPart build_parts[] = {
-    {".vtu", QUADRILLE_HAS_VTK, "VTK"},     {".vtp", QUADRILLE_HAS_VTK, "VTK"},
-    {".stl", QUADRILLE_HAS_VTK, "VTK"},     {".obj", QUADRILLE_HAS_VTK, "VTK"},
-    {".ply", QUADRILLE_HAS_VTK, "VTK"},     {".med", QUADRILLE_HAS_MED, "libmed"},
-    {".png", QUADRILLE_HAS_PICTURES, "VTK"}};
-
-const Module& vtk_module() {
-  require_module(".vtu");
+const Module& vtk_module(std::string_view ending = ".vtu") {
+  require_library(Library::vtk, ending);
   static const Module module("quadrille_vtk");
   return module;
 }
 
 const Module& picture_module() {
-  require_module(".png");
+  require_library(Library::pictures, ".png");
   static const Module module("quadrille_picture");
   return module;
 }
 
 const Module& med_module() {
-  require_module(".med");
+  require_library(Library::med, ".med");
   static const Module module("quadrille_med");
   return module;
 }
@@ -52,12 +40,11 @@ void check(const std::string& problem) {
 
 }  // namespace
 
-void require_module(std::string_view ending) {
-  for (const BuildPart& part : build_parts)
-    if (part.ending == ending && !part.has)
-      throw usage_error(
-          std::string(ending),
-          fmt::format("{} files need {}, which this build of Quadrille lacks", ending, part.needs));
+void require_library(Library library, std::string_view ending) {
+  constexpr bool has[] = {true, QUADRILLE_HAS_VTK, QUADRILLE_HAS_PICTURES, QUADRILLE_HAS_MED};
+  if (has[static_cast<int>(library)]) return;
+  throw usage_error(std::string(ending), fmt::format("{} files need {}, which this build of Quadrille lacks",
+                                                     ending, library == Library::med ? "libmed" : "VTK"));
 }
 
 std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {
@@ -87,7 +74,7 @@ std::string size_picture(const SizeMap& map, int width, int height) {
 
 ImportedMesh vtk_mesh(const std::string& path, const std::string& ending) {
   ImportedMesh mesh;
-  check(vtk_module().function<VtkReadFunction>("_read")(path, ending, mesh));
+  check(vtk_module(ending).function<VtkReadFunction>("_read")(path, ending, mesh));
   return mesh;
 }
 

@@ -17,8 +17,11 @@
 
 namespace quadrille {
 
-/// Throws Error (usage) if files of this ending (".med") need a module that this build lacks.
-void require_module(std::string_view ending);
+/// What a build may lack, each with a module of its own.
+enum class Library { none, vtk, pictures, med };
+
+/// Throws Error (usage) if this build lacks the library. \param ending of the files that need it (".med").
+void require_library(Library library, std::string_view ending);
 
 /// A mesh read by VTK. Nodes are numbered from 1 in the order of the points.
 struct ImportedMesh {

@@ -113,8 +113,7 @@ std::vector<std::string> OutputMesh::set_names() const {
 }
 
 std::vector<char> OutputMesh::is_in_set(int dimension, const std::string& name) const {
-  const int count = dimension == 2 ? shell_count() : dimension == 1 ? segment_count() : corner_count();
-  std::vector<char> result(count, 0);
+  std::vector<char> result(count(dimension), 0);
   for (const NamedGroup& group : named_[dimension]) {
     if (group.name != name) continue;
     for (const int member : members(dimension, group)) result[member] = 1;
@@ -124,14 +123,8 @@ std::vector<char> OutputMesh::is_in_set(int dimension, const std::string& name) 
 
 std::vector<int> OutputMesh::node_numbers(int dimension, const NamedGroup& group) const {
   std::vector<int> numbers;
-  for (const int member : members(dimension, group)) {
-    if (dimension == 0) {
-      numbers.push_back(number(corner_node(member)));
-      continue;
-    }
-    for (const int node : dimension == 1 ? segment_nodes(member) : shell_nodes(member))
-      numbers.push_back(number(node));
-  }
+  for (const int member : members(dimension, group))
+    for (const int node : element_nodes(dimension, member)) numbers.push_back(number(node));
   sort_unique(numbers);
   return numbers;
 }
@@ -277,6 +270,25 @@ ElementNodes OutputMesh::segment_nodes(int segment) const {
   ElementNodes result{{side.nodes[0], side.nodes[1]}, 2};
   if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
   return result;
+}
+
+int OutputMesh::count(int dimension) const {
+  return dimension == 2 ? shell_count() : dimension == 1 ? segment_count() : corner_count();
+}
+
+int OutputMesh::entity(int dimension, int member) const {
+  return dimension == 2 ? face(member) : dimension == 1 ? edge(member) : vertex(member);
+}
+
+ElementNodes OutputMesh::element_nodes(int dimension, int member) const {
+  if (dimension == 0) return {{corner_node(member)}, 1};
+  return dimension == 1 ? segment_nodes(member) : shell_nodes(member);
+}
+
+std::vector<int> OutputMesh::numbers_of(std::vector<int> shells) {
+  std::sort(shells.begin(), shells.end());
+  for (int& shell : shells) ++shell;
+  return shells;
 }
 
 }  // namespace quadrille

@@ -84,6 +84,11 @@ class OutputMesh {
   /// End nodes, then the midside node at second order.
   ElementNodes segment_nodes(int segment) const;
 
+  /// The same by dimension: shell elements (2), segments (1) or corners (0).
+  int count(int dimension) const;
+  int entity(int dimension, int member) const;
+  ElementNodes element_nodes(int dimension, int member) const;
+
   const std::vector<CadGroup>& faces() const { return faces_; }        ///< shell elements by CAD face
   const std::vector<CadGroup>& edges() const { return edges_; }        ///< segments by CAD edge
   const std::vector<CadGroup>& vertices() const { return vertices_; }  ///< corners by CAD vertex
@@ -107,6 +112,8 @@ class OutputMesh {
   bool groups_were_read() const { return !mesh_.groups.empty(); }
   /// Indices of the shell elements, segments or corners in a group, ascending.
   std::vector<int> members(int dimension, const NamedGroup& group) const;
+  /// Numbers of shell elements in the file, ascending. \param shells their indices
+  static std::vector<int> numbers_of(std::vector<int> shells);
   /// Names of groups, each once, that do not follow from the numbers of faces, edges and vertices, such as
   /// those of sets that were read. VTK's formats have one array for each name.
   std::vector<std::string> set_names() const;

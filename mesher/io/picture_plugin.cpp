@@ -4,12 +4,10 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkIntArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
@@ -29,24 +27,6 @@
 namespace quadrille {
 
 namespace {
-
-/// Adds face and q of each polygon, quads before triangles. Triangles get q = 0.
-void add_cell_data(const ShellMesh& mesh, const std::vector<double>& qualities, vtkCellData* data) {
-  vtkNew<vtkIntArray> faces;
-  faces->SetName("face");
-  vtkNew<vtkDoubleArray> q;
-  q->SetName("q");
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-    faces->InsertNextValue(i < mesh.quad_faces.size() ? mesh.quad_faces[i] : 0);
-    q->InsertNextValue(qualities[i]);
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    faces->InsertNextValue(i < mesh.triangle_faces.size() ? mesh.triangle_faces[i] : 0);
-    q->InsertNextValue(0);
-  }
-  data->AddArray(faces);
-  data->AddArray(q);
-}
 
 /// From red (bad) through yellow to blue (good), which the color-blind can also tell apart.
 vtkNew<vtkLookupTable> color_map() {
@@ -77,18 +57,11 @@ vtkNew<vtkActor> surface_actor(const ShellMesh& mesh, const std::vector<double>&
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(points);
   surface->SetPolys(cells);
-  add_cell_data(mesh, qualities, surface->GetCellData());
-  surface->GetCellData()->SetActiveScalars("q");
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(surface);
-  mapper->SetLookupTable(colors);
-  mapper->UseLookupTableScalarRangeOn();
-  // Behind the lines that are drawn on the surface.
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.5, 2);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetInterpolationToFlat();
+  vtkNew<vtkDoubleArray> q;  // of triangles 0
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) q->InsertNextValue(qualities[i]);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) q->InsertNextValue(0);
+  surface->GetCellData()->SetScalars(q);
+  vtkNew<vtkActor> actor = colored_actor(surface, colors);
   actor->GetProperty()->SetAmbient(0.55);
   actor->GetProperty()->SetDiffuse(0.5);
   return actor;

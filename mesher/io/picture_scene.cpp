@@ -4,6 +4,7 @@
 
 #include <vtkCamera.h>
 #include <vtkImageData.h>
+#include <vtkLookupTable.h>
 #include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -73,6 +74,23 @@ vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoi
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   actor->GetProperty()->SetOpacity(opacity);
   actor->GetProperty()->LightingOff();
+  return actor;
+}
+
+vtkNew<vtkActor> colored_actor(vtkPolyData* surface, vtkLookupTable* colors) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->SetLookupTable(colors);
+  mapper->UseLookupTableScalarRangeOn();
+  mapper->InterpolateScalarsBeforeMappingOn();
+  // Behind the lines that are drawn on the surface.
+  mapper->SetResolveCoincidentTopologyToPolygonOffset();
+  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.5, 2);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetInterpolationToFlat();
+  actor->GetProperty()->SetAmbient(0.6);
+  actor->GetProperty()->SetDiffuse(0.45);
   return actor;
 }
 

@@ -3,8 +3,10 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
+#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
 #include <vtkScalarsToColors.h>
@@ -30,6 +32,9 @@ void add_cell(vtkCellArray* cells, const std::array<int, N>& nodes) {
 /// Dark lines between points. \param width pixels.
 vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoints* points, double width,
                             double opacity);
+
+/// A surface colored by its scalars, those of points interpolated, of cells not.
+vtkNew<vtkActor> colored_actor(vtkPolyData* surface, vtkLookupTable* colors);
 
 struct BarTexts {
   const char* title;

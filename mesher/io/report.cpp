@@ -22,6 +22,23 @@ namespace {
 
 using nlohmann::json;
 
+/// What `item` makes of each member of a list.
+template <class List, class Item>
+json listed(const List& list, Item&& item) {
+  json result = json::array();
+  for (const auto& member : list) result.push_back(item(member));
+  return result;
+}
+
+json place_to_json(const Vector3& place) {
+  return {place.x(), place.y(), place.z()};
+}
+
+/// "Face3"; dimension 1: "Edge3".
+std::string name_of_entity(int dimension, int number) {
+  return (dimension == 2 ? "Face" : "Edge") + std::to_string(number);
+}
+
 json quality_to_json(const QualitySummary& summary) {
   return {{"q_min", summary.q_min},
           {"q_mean", summary.q_mean},
@@ -65,7 +82,7 @@ json criteria_to_json(const CriteriaSummary& summary, const CriteriaLimits& limi
     const CriterionInfo& info = criteria_info[static_cast<std::size_t>(quad.criterion)];
     result["worst"].push_back({{"quad", quad.quad + 1},
                                {"face", "Face" + std::to_string(quad.face)},
-                               {"center", {quad.center.x(), quad.center.y(), quad.center.z()}},
+                               {"center", place_to_json(quad.center)},
                                {"criterion", info.name},
                                {"value", quad.value}});
   }
@@ -83,38 +100,34 @@ json seconds_to_json(const ExecutionContext& context) {
 }
 
 json faces_to_json(const ShellMesh& mesh) {
-  json faces = json::array();
-  for (const ShellMesh::Face& face : mesh.faces)
-    faces.push_back({{"name", "Face" + std::to_string(face.face)},
-                     {"status", name_of(face.status)},
-                     {"quads", face.quads},
-                     {"q_min", face.q_min},
-                     {"seconds", face.seconds},
-                     {"off_geometry", {{"nodes", face.off_geometry}, {"largest", face.off_geometry_max}}},
-                     {"attempts", face.attempts},
-                     {"work", face.work},
-                     {"share", face.share},
-                     {"note", face.note}});
-  return faces;
+  return listed(mesh.faces, [](const ShellMesh::Face& face) {
+    return json{{"name", "Face" + std::to_string(face.face)},
+                {"status", name_of(face.status)},
+                {"quads", face.quads},
+                {"q_min", face.q_min},
+                {"seconds", face.seconds},
+                {"off_geometry", {{"nodes", face.off_geometry}, {"largest", face.off_geometry_max}}},
+                {"attempts", face.attempts},
+                {"work", face.work},
+                {"share", face.share},
+                {"note", face.note}};
+  });
 }
 
 /// Node numbers from 1, as in mesh files.
 json off_geometry_to_json(const ShellMesh& mesh) {
-  json nodes = json::array();
-  for (const ShellMesh::OffGeometry& off : mesh.off_geometry)
-    nodes.push_back({{"node", off.node + 1}, {"distance", off.distance}});
-  return nodes;
+  return listed(mesh.off_geometry, [](const ShellMesh::OffGeometry& off) {
+    return json{{"node", off.node + 1}, {"distance", off.distance}};
+  });
 }
 
 json crossed_to_json(const ShellMesh& mesh) {
   json edges = json::array();
   for (const ShellMesh::CrossedEdge& edge : mesh.crossed_edges) {
-    json line = json::array();
-    for (const Vector3& point : edge.line) line.push_back({point.x(), point.y(), point.z()});
     edges.push_back(
         {{"name", "Edge" + std::to_string(edge.edge)},
          {"faces", {"Face" + std::to_string(edge.faces[0]), "Face" + std::to_string(edge.faces[1])}},
-         {"line", line}});
+         {"line", listed(edge.line, place_to_json)}});
   }
   return edges;
 }
@@ -126,10 +139,7 @@ json placed_to_json(const ShellMesh& mesh) {
     const auto corner = std::find_if(mesh.corners.begin(), mesh.corners.end(),
                                      [&](const auto& other) { return other.vertex == node.vertex; });
     json at;
-    if (corner != mesh.corners.end()) {
-      const Vector3& p = mesh.points[corner->node];
-      at = {p.x(), p.y(), p.z()};
-    }
+    if (corner != mesh.corners.end()) at = place_to_json(mesh.points[corner->node]);
     result.push_back({{"name", node.name}, {"at", at}});
   }
   return result;
@@ -137,20 +147,18 @@ json placed_to_json(const ShellMesh& mesh) {
 
 /// The motion of each pair, and its nodes by their numbers in mesh files.
 json matches_to_json(const ShellMesh& mesh) {
-  const auto list = [](const Vector3& v) { return json{v.x(), v.y(), v.z()}; };
   json matches = json::array();
   for (const ShellMesh::Match& match : mesh.matches) {
     const RigidMotion& motion = match.motion;
-    const std::string kind = match.dimension == 2 ? "Face" : "Edge";
     json nodes = json::array();
     for (const auto& [a, b] : match.nodes) nodes.push_back({a + 1, b + 1});
-    json moved{{"translation", list(motion.translation)}};
+    json moved{{"translation", place_to_json(motion.translation)}};
     if (motion.angle != 0)
-      moved.update({{"center", list(motion.center)},
-                    {"axis", list(motion.axis)},
+      moved.update({{"center", place_to_json(motion.center)},
+                    {"axis", place_to_json(motion.axis)},
                     {"degrees", motion.angle * 180 / std::numbers::pi}});
-    matches.push_back({{"from", kind + std::to_string(match.entities[0])},
-                       {"to", kind + std::to_string(match.entities[1])},
+    matches.push_back({{"from", name_of_entity(match.dimension, match.entities[0])},
+                       {"to", name_of_entity(match.dimension, match.entities[1])},
                        {"motion", moved},
                        {"nodes", nodes}});
   }
@@ -161,40 +169,35 @@ json suppressed_to_json(const ShellMesh& mesh) {
   const auto name = [](ShellMesh::SuppressedFeature::Kind kind, int number) {
     return (kind == ShellMesh::SuppressedFeature::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
   };
-  json features = json::array();
-  for (const ShellMesh::SuppressedFeature& feature : mesh.suppressed_features)
-    features.push_back({{"name", name(feature.kind, feature.number)},
-                        {"to", name(feature.to_kind, feature.to)},
-                        {"distance", feature.distance}});
-  return features;
+  return listed(mesh.suppressed_features, [&](const ShellMesh::SuppressedFeature& feature) {
+    return json{{"name", name(feature.kind, feature.number)},
+                {"to", name(feature.to_kind, feature.to)},
+                {"distance", feature.distance}};
+  });
 }
 
 json filled_holes_to_json(const ShellMesh& mesh) {
   const auto names = [](const std::vector<int>& faces) {
-    json result = json::array();
-    for (const int face : faces) result.push_back("Face" + std::to_string(face));
-    return result;
+    return listed(faces, [](int face) { return name_of_entity(2, face); });
   };
-  json holes = json::array();
-  for (const ShellMesh::FilledHole& hole : mesh.filled_holes)
-    holes.push_back({{"kind", hole.boss ? "boss" : "hole"},
-                     {"center", {hole.center.x(), hole.center.y(), hole.center.z()}},
-                     {"diameter", hole.diameter},
-                     {"in", names(hole.in)},
-                     {"faces", names(hole.faces)}});
-  return holes;
+  return listed(mesh.filled_holes, [&](const ShellMesh::FilledHole& hole) {
+    return json{{"kind", hole.boss ? "boss" : "hole"},
+                {"center", place_to_json(hole.center)},
+                {"diameter", hole.diameter},
+                {"in", names(hole.in)},
+                {"faces", names(hole.faces)}};
+  });
 }
 
 json poor_quads_to_json(const ShellMesh& mesh) {
   constexpr std::array<const char*, 4> names{"short edge", "sharp corner", "narrow", "none"};
-  json entities = json::array();
-  for (const ShellMesh::PoorQuads& found : mesh.poor_quads)
-    entities.push_back({{"name", (found.dimension == 2 ? "Face" : "Edge") + std::to_string(found.number)},
-                        {"quads", found.quads},
-                        {"shortest", found.shortest},
-                        {"cause", names[static_cast<std::size_t>(found.cause)]},
-                        {"why", found.why}});
-  return entities;
+  return listed(mesh.poor_quads, [&](const ShellMesh::PoorQuads& found) {
+    return json{{"name", name_of_entity(found.dimension, found.number)},
+                {"quads", found.quads},
+                {"shortest", found.shortest},
+                {"cause", names[static_cast<std::size_t>(found.cause)]},
+                {"why", found.why}};
+  });
 }
 
 /// Numbers of elements, from 1.
@@ -204,11 +207,9 @@ json elements_to_json(std::vector<int> indices) {
 }
 
 json kept_to_json(const ShellMesh& mesh) {
-  json features = json::array();
-  for (const ShellMesh::Kept& feature : mesh.kept)
-    features.push_back({{"name", (feature.dimension == 2 ? "Face" : "Edge") + std::to_string(feature.number)},
-                        {"why", feature.why}});
-  return features;
+  return listed(mesh.kept, [](const ShellMesh::Kept& feature) {
+    return json{{"name", name_of_entity(feature.dimension, feature.number)}, {"why", feature.why}};
+  });
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <vtkLookupTable.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
 
@@ -84,29 +83,12 @@ vtkNew<vtkPolyData> surface_of(const SizeMap& map, vtkPoints* points) {
   return surface;
 }
 
-vtkNew<vtkActor> actor_of(vtkPolyData* surface, vtkLookupTable* colors) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(surface);
-  mapper->SetLookupTable(colors);
-  mapper->UseLookupTableScalarRangeOn();
-  mapper->InterpolateScalarsBeforeMappingOn();
-  // Behind the lines that are drawn on the surface.
-  mapper->SetResolveCoincidentTopologyToPolygonOffset();
-  mapper->SetRelativeCoincidentTopologyPolygonOffsetParameters(1.5, 2);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->SetAmbient(0.6);
-  actor->GetProperty()->SetDiffuse(0.45);
-  return actor;
-}
-
 vtkNew<vtkActor> sizes_actor(const SizeMap& map, vtkPoints* points, vtkLookupTable* colors) {
   const vtkNew<vtkPolyData> surface = surface_of(map, points);
   vtkNew<vtkDoubleArray> sizes;
   for (const double size : map.sizes) sizes->InsertNextValue(size);
   surface->GetPointData()->SetScalars(sizes);
-  return actor_of(surface, colors);
+  return colored_actor(surface, colors);
 }
 
 vtkNew<vtkActor> sources_actor(const SizeMap& map, vtkPoints* points, vtkLookupTable* colors) {
@@ -115,7 +97,7 @@ vtkNew<vtkActor> sources_actor(const SizeMap& map, vtkPoints* points, vtkLookupT
   for (const auto& [a, b, c] : map.triangles)  // the source at two corners or more, if any two agree
     rulers->InsertNextValue(map.rulers[b] == map.rulers[c] ? map.rulers[b] : map.rulers[a]);
   surface->GetCellData()->SetScalars(rulers);
-  return actor_of(surface, colors);
+  return colored_actor(surface, colors);
 }
 
 /// For each source that rules somewhere: a square of its color, its name, its approximate share of the quads.

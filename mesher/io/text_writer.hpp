@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry/base/atomic_file.hpp"
+#include "geometry/base/vector.hpp"
 
 namespace quadrille {
 
@@ -41,17 +42,26 @@ class TextWriter {
   /// The shortest text that reads back as the same double.
   TextWriter& operator<<(double value) { return number(value); }
 
+  /// "x y z"
+  TextWriter& operator<<(const Vector3& point) {
+    return *this << point.x() << ' ' << point.y() << ' ' << point.z();
+  }
+
   /// Right-aligned in `width` columns.
+  TextWriter& padded(std::string_view text, int width) {
+    for (int i = static_cast<int>(text.size()); i < width; ++i) *this << ' ';
+    return *this << text;
+  }
   TextWriter& padded(int value, int width) {
     char digits[16];
-    return align({digits, to_text(digits, value)}, width);
+    return padded({digits, to_text(digits, value)}, width);
   }
   /// In Fortran's E notation with 17 significant digits, right-aligned in `width` columns.
   TextWriter& scientific(double value, int width) {
     char digits[32];
     const auto end =
         std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16).ptr;
-    return align({digits, static_cast<std::size_t>(end - digits)}, width);
+    return padded({digits, static_cast<std::size_t>(end - digits)}, width);
   }
 
   /// The shortest text that reads back as the same double. If that is longer than `most` characters, the
@@ -99,10 +109,6 @@ class TextWriter {
     char* begin = buffer_.data() + size_;
     size_ += static_cast<std::size_t>(std::to_chars(begin, begin + 32, value).ptr - begin);
     return *this;
-  }
-  TextWriter& align(std::string_view text, int width) {
-    for (int i = static_cast<int>(text.size()); i < width; ++i) *this << ' ';
-    return *this << text;
   }
 
   AtomicFile* file_ = nullptr;

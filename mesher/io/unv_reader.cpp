@@ -76,12 +76,8 @@ class UnvReader {
     // Exponents of Fortran's double precision.
     for (char& c : word)
       if (c == 'D' || c == 'd') c = 'e';
-    Number value{};
-    const char* first = word.data() + (word.front() == '+' ? 1 : 0);
-    const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size())
-      throw cursor_.error_before(fmt::format("expected {}, found \"{}\"", what, word.substr(0, 30)));
-    return value;
+    if (const std::optional<Number> value = parsed<Number>(word)) return *value;
+    throw cursor_.error_before(fmt::format("expected {}, found \"{}\"", what, word.substr(0, 30)));
   }
 
   /// The next line of a dataset; false at its end.

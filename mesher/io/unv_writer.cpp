@@ -91,44 +91,35 @@ void write_elements(const OutputMesh& mesh, TextWriter& out) {
   end_dataset(out);
 }
 
-class GroupWriter {
- public:
-  explicit GroupWriter(TextWriter& out) : out_(out) {}
-
-  /// \param label_of maps a member of the group to its node or element number.
-  template <class LabelOf>
-  void write(const std::string& name, const std::vector<int>& members, int entity_type, LabelOf label_of) {
-    Fields fields(out_);
-    fields.add(++number_);
-    for (int i = 0; i < 6; ++i) fields.add(0);
-    fields.add(static_cast<int>(members.size()));
-    fields.end();
-    out_ << name << '\n';
-    for (const int member : members)
-      for (const int value : {entity_type, label_of(member), 0, 0}) fields.add(value);
-    fields.end();
-  }
-
- private:
-  TextWriter& out_;
-  int number_ = 0;
-};
+/// \param members numbers of elements, or of nodes
+void write_group(int number, const std::string& name, const std::vector<int>& members, int entity_type,
+                 TextWriter& out) {
+  Fields fields(out);
+  for (const int value : {number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size())}) fields.add(value);
+  out << name << '\n';
+  for (const int member : members)
+    for (const int value : {entity_type, member, 0, 0}) fields.add(value);
+  fields.end();
+}
 
 void write_groups(const OutputMesh& mesh, TextWriter& out) {
   const bool named = !mesh.groups(2).empty() || !mesh.groups(1).empty() || !mesh.groups(0).empty();
   if (!named && mesh.thicknesses().empty()) return;
   begin_dataset(2467, out);
-  GroupWriter groups(out);
-  for (const NamedGroup& group : mesh.groups(2))
-    groups.write(group.name, mesh.members(2, group), entity_element, [](int shell) { return shell + 1; });
-  for (const NamedGroup& group : mesh.groups(1))
-    groups.write(group.name, mesh.members(1, group), entity_element,
-                 [&](int segment) { return mesh.shell_count() + segment + 1; });
-  for (const NamedGroup& group : mesh.groups(0))
-    groups.write(group.name, mesh.members(0, group), entity_node,
-                 [&](int corner) { return mesh.number(mesh.corner_node(corner)); });
-  for (const ThicknessGroup& group : mesh.thicknesses())
-    groups.write(group.name, group.members, entity_element, [](int shell) { return shell + 1; });
+  int number = 0;
+  for (const int dimension : {2, 1, 0})
+    for (const NamedGroup& group : mesh.groups(dimension)) {
+      std::vector<int> members = mesh.members(dimension, group);
+      for (int& member : members)
+        member = dimension == 0 ? mesh.number(mesh.corner_node(member))
+                                : member + 1 + (dimension == 1 ? mesh.shell_count() : 0);
+      write_group(++number, group.name, members, dimension == 0 ? entity_node : entity_element, out);
+    }
+  for (const ThicknessGroup& group : mesh.thicknesses()) {
+    std::vector<int> members = group.members;
+    for (int& member : members) ++member;
+    write_group(++number, group.name, members, entity_element, out);
+  }
   end_dataset(out);
 }
 

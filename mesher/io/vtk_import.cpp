@@ -105,6 +105,12 @@ vtkSmartPointer<vtkDataSet> read_data_set(const std::string& path, const std::st
   return read_with(reader.Get(), path);
 }
 
+std::vector<Vector3> points_of(vtkDataSet* mesh) {
+  std::vector<Vector3> points(static_cast<std::size_t>(mesh->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < points.size(); ++i) mesh->GetPoint(static_cast<vtkIdType>(i), points[i].data());
+  return points;
+}
+
 /// The array with the CAD entity of each cell of a dimension, in our files or those of others; or null.
 vtkDataArray* entity_array(vtkDataSet* mesh, int dimension) {
   constexpr const char* own[] = {"vertex", "edge", "face"};
@@ -274,9 +280,7 @@ SolverResult::Element brick_of(vtkDataSet* mesh, vtkIdType cell) {
 QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const std::string& ending,
                                                 quadrille::ImportedMesh& mesh) try {
   const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ending);
-  mesh.points.resize(read->GetNumberOfPoints());
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-    read->GetPoint(static_cast<vtkIdType>(i), mesh.points[i].data());
+  mesh.points = quadrille::points_of(read);
   quadrille::CellImport cells(read, mesh);
   mesh.elements.reserve(read->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell) cells.add(cell);
@@ -289,9 +293,7 @@ QUADRILLE_EXPORT std::string quadrille_vtk_read(const std::string& path, const s
 QUADRILLE_EXPORT std::string quadrille_vtk_result(const std::string& path,
                                                   quadrille::SolverResult& result) try {
   const vtkSmartPointer<vtkDataSet> read = quadrille::read_data_set(path, ".vtu");
-  result.points.resize(read->GetNumberOfPoints());
-  for (std::size_t i = 0; i < result.points.size(); ++i)
-    read->GetPoint(static_cast<vtkIdType>(i), result.points[i].data());
+  result.points = quadrille::points_of(read);
   for (vtkIdType cell = 0; cell < read->GetNumberOfCells(); ++cell)
     result.elements.push_back(quadrille::brick_of(read, cell));
   result.displacements = quadrille::displacements_of(read);

@@ -1,11 +1,15 @@
-/// The module libquadrille_vtk.so: writes .vtu files with VTK; vtk_import.cpp reads. See modules.hpp.
+/// The module libquadrille_vtk.so: writes meshes and sizes as .vtu with VTK; vtk_import.cpp reads. See
+/// modules.hpp.
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -95,6 +99,44 @@ class GridMaker {
   vtkNew<vtkDoubleArray> q_, thickness_;
 };
 
+/// The grid: triangles, then lines, with their CAD numbers; sizes and sources at points; the sources' names.
+vtkNew<vtkUnstructuredGrid> sizes_grid(const SizeMap& map) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> sizes;
+  vtkNew<vtkIntArray> sources, faces, edges;
+  vtkNew<vtkStringArray> names;
+  sizes->SetName("size");
+  sources->SetName("source");
+  faces->SetName("face");
+  edges->SetName("edge");
+  names->SetName("sources");
+  for (const Vector3& point : map.points) points->InsertNextPoint(point.data());
+  for (const double size : map.sizes) sizes->InsertNextValue(size);
+  for (const int source : map.rulers) sources->InsertNextValue(source);
+  for (const SizeMap::Source& source : map.sources) names->InsertNextValue(source.name);
+  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkUnsignedCharArray> types;
+  const auto add = [&](const auto& nodes, int type, int face, int edge) {
+    cells->InsertNextCell(static_cast<int>(nodes.size()));
+    for (const int node : nodes) cells->InsertCellPoint(node);
+    types->InsertNextValue(static_cast<unsigned char>(type));
+    faces->InsertNextValue(face);
+    edges->InsertNextValue(edge);
+  };
+  for (std::size_t i = 0; i < map.triangles.size(); ++i) add(map.triangles[i], VTK_TRIANGLE, map.faces[i], 0);
+  for (const SizeMap::Line& line : map.lines) add(line.points, VTK_LINE, 0, line.edge);
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  grid->SetCells(types, cells);
+  grid->GetPointData()->AddArray(sizes);
+  grid->GetPointData()->AddArray(sources);
+  grid->GetCellData()->AddArray(faces);
+  grid->GetCellData()->AddArray(edges);
+  grid->GetFieldData()->AddArray(names);
+  return grid;
+}
+
 std::string vtu_bytes(vtkUnstructuredGrid* grid) {
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
@@ -116,6 +158,13 @@ QUADRILLE_EXPORT std::string quadrille_vtk_file(const quadrille::OutputMesh& mes
                                                 std::string& bytes) try {
   bytes = quadrille::vtu_bytes(quadrille::GridMaker(mesh).make(qualities));
   return bytes.empty() ? "VTK could not write the mesh" : "";
+} catch (const std::exception& error) {
+  return quadrille::sentence_of(error);
+}
+
+QUADRILLE_EXPORT std::string quadrille_vtk_sizes(const quadrille::SizeMap& map, std::string& bytes) try {
+  bytes = quadrille::vtu_bytes(quadrille::sizes_grid(map));
+  return bytes.empty() ? "VTK could not write the sizes" : "";
 } catch (const std::exception& error) {
   return quadrille::sentence_of(error);
 }

@@ -68,10 +68,8 @@ void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::v
   out << "# vtk DataFile Version 2.0\n"
       << std::string_view(options.title).substr(0, longest_title)
       << "\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << nodes << " double\n";
-  write_in_order(nodes, out, [&](std::size_t i, TextWriter& to) {
-    const Vector3& point = mesh.point(static_cast<int>(i));
-    to << point.x() << ' ' << point.y() << ' ' << point.z() << '\n';
-  });
+  write_in_order(nodes, out,
+                 [&](std::size_t i, TextWriter& to) { to << mesh.point(static_cast<int>(i)) << '\n'; });
   std::size_t numbers = 0;
   for (int i = 0; i < mesh.shell_count(); ++i) numbers += 1 + mesh.shell_nodes(i).count;
   out << "CELLS " << mesh.shell_count() << ' ' << numbers << '\n';

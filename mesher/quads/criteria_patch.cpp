@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/mesh/criteria.hpp"
+
 // Compiled a second time for processors with registers of four numbers; the results are the same bit for bit.
 // The choice when the program starts needs ELF.
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
@@ -24,21 +26,29 @@ constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double most = 1000;
 /// A quad with a smaller cosine between its normal and `up` is drawn in the plane of u and v instead.
 constexpr double facing = 0.1;
+constexpr double limit(Criterion criterion) {
+  return criteria_info[static_cast<std::size_t>(criterion)].usual_limit;
+}
+
+constexpr double square(double x) {
+  return x * x;
+}
+
 constexpr double sin2_corner = 0.586824;  // squared sine of 50 degrees
 constexpr double sin2_skew = 0.413176;    // squared sine of 40 degrees
-constexpr double aspect2 = 25;            // 5 squared
-/// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3): 0.6 at this t^2.
-constexpr double taper2 = 0.1875;
+static_assert(limit(Criterion::angle_min) == 90 - 50 && limit(Criterion::angle_max) == 90 + 50 &&
+              limit(Criterion::skew) == 40);
+constexpr double aspect2 = square(limit(Criterion::aspect));
+/// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3).
+constexpr double taper2 =
+    3 * square((1 - limit(Criterion::jacobian_ratio)) / (1 + limit(Criterion::jacobian_ratio)));
+static_assert(aspect2 == 25 && taper2 == 0.1875);
 /// Weight of the squared aspect in the squareness term, beside 1 for the squared cosines of the corners.
 /// Without it, rows would close up where that term turns corners.
 constexpr double evenness = 0.02;
 /// Weight of the squared taper there. With it, grids that are sheared as a whole stay so, and no quads become
 /// squares at the expense of the others.
 constexpr double parallelism = 3;
-
-double square(double x) {
-  return x * x;
-}
 
 /// A plane quad p, b, c, d. Written without branches, so that compilers can process several at once.
 struct Plane {

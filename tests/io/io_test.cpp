@@ -9,12 +9,14 @@
 #include <chrono>
 #include <cstring>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 #include <thread>
 
 #include "geometry/base/error.hpp"
 #include "mesher/io/readers.hpp"
+#include "mesher/settings.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/shell_grid.hpp"
 
@@ -180,6 +182,36 @@ TEST(Writers, RefuseUnknownEndingsAndVersions) {
   const ShellGrid grid(2, 1);
   EXPECT_SAYS(write_mesh(grid.mesh(), folder / "a.stl"), "unknown mesh format");
   EXPECT_EQ(folder.file_count(), 0);
+}
+
+TEST(Formats, EachRowOfTheTableIsReadAndWritten) {
+  const TemporaryFolder folder;
+  const ShellGrid grid(2, 1);
+  const auto setting = [](std::string_view name) {
+    const auto& all = all_settings();
+    return std::find_if(all.begin(), all.end(), [&](const Setting& row) { return row.name == name; });
+  };
+  const auto tables = nlohmann::json::parse(tables_json());
+  ASSERT_FALSE(tables.at("formats").empty());
+  for (const auto& row : tables.at("formats")) {
+    const std::string ending = row.at("ending");
+    const auto path = folder / ("a" + ending);
+    if (row.at("written")) {
+      write_mesh(grid.mesh(), path);
+      EXPECT_TRUE(contains(written_endings("or"), ending));
+      // What the help of settings says of formats.
+      EXPECT_EQ(contains(std::string(setting("order")->otherwise), ending), row.at("for_solvers")) << ending;
+      EXPECT_EQ(contains(std::string(setting("nodes")->help), ending), row.at("nine_nodes")) << ending;
+    } else {
+      EXPECT_SAYS(write_mesh(grid.mesh(), path), "(known are " + written_endings("and") + ")");
+    }
+    if (!row.at("read")) {
+      EXPECT_SAYS(read_mesh(path), "(known are " + read_endings("and") + ")");
+    } else if (row.at("written")) {
+      EXPECT_EQ(read_mesh(path).quads.size(), grid.mesh().quads.size()) << ending;
+    }
+    EXPECT_EQ(is_solver_format(path), row.at("for_solvers")) << ending;
+  }
 }
 
 TEST(Writers, WriteTrianglesToo) {

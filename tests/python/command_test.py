@@ -15,7 +15,7 @@ import quadrille.core.command
 from quadrille import Error
 from quadrille.core.command import MeshJob, MeshSettings, find_command
 
-from quadrille.core.setting_table import SETTINGS, from_property, to_property
+from quadrille.core.setting_table import SETTINGS, TABLES, from_property, to_property
 
 MODELS = Path(os.environ["QUADRILLE_MODELS"])
 
@@ -82,6 +82,9 @@ class CommandTest(unittest.TestCase):
         answer = subprocess.run([find_command(), "settings", "--json"], capture_output=True, text=True, check=True)
         self.assertEqual(json.loads(answer.stdout), SETTINGS,
                          "write it anew: build/quadrille settings --json > workbench/quadrille/settings.json")
+        answer = subprocess.run([find_command(), "settings", "--tables"], capture_output=True, text=True, check=True)
+        self.assertEqual(json.loads(answer.stdout), TABLES,
+                         "write it anew: build/quadrille settings --tables > workbench/quadrille/tables.json")
 
     def test_every_setting_reaches_the_mesher(self):
         values = {"number": 7.5, "count": 2, "flag": True, "names": ["Face1"], "sizes": {"Face1": 3.0}}

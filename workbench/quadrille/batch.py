@@ -35,10 +35,10 @@ from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, NoReturn, Op
 
 from .core.command import VERSION, MeshJob, check_version, find_command
 from .core.errors import Error, printable
-from .core.setting_table import SETTINGS
+from .core.setting_table import SETTINGS, TABLES
 
 ENDINGS = (".step", ".stp", ".iges", ".igs", ".brep")
-FORMATS = ("msh", "inp", "unv", "med", "vtu", "vtk", "bdf")
+FORMATS = tuple(row["ending"][1:] for row in TABLES["formats"] if row["written"])
 #: Settings of `quadrille mesh` that hold unless others are given: time limits in seconds; each worker uses one core.
 DEFAULTS = {"time_limit": 300, "read_time_limit": 300, "threads": 1}
 #: The columns of the report, of which these are numbers.

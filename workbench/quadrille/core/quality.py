@@ -6,13 +6,11 @@ from typing import Dict, NamedTuple, Sequence, Tuple
 import numpy as np
 
 from .arrays import faces_of, nodes_of
+from .setting_table import TABLES
 
-#: The industry criteria: the value of a perfect square, and the usual limit. Same as in the mesher (mesher/mesh/criteria.hpp).
-#: Half the minimum size of a mesh is the limit of min_length, see limits().
-CRITERIA = {
-    "aspect": (1.0, 5.0), "warp": (0.0, 15.0), "skew": (0.0, 40.0), "angle_min": (90.0, 40.0), "angle_max": (90.0, 140.0),
-    "jacobian_ratio": (1.0, 0.6), "taper": (0.0, 0.6), "min_length": (np.inf, 0.0),
-}
+#: The industry criteria of the mesher: the value of a perfect square, and the usual limit. min_length has no usual limit, and
+#: longer sides are never worse: see limits().
+CRITERIA = {row["name"]: (np.inf, 0.0) if row["limit"] is None else (row["ideal"], row["limit"]) for row in TABLES["criteria"]}
 #: A direction unrelated to any mesh, of at most unit length: along it, few separate nodes are close together.
 _SLANTED = np.array([0.5271, 0.3817, 0.7590])
 

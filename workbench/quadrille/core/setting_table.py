@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The mesher's table of settings. The command's options, and the properties and panel of mesh objects, are made from it.
-settings.json holds the output of `quadrille settings --json`; a test compares the two.
+settings.json holds the output of `quadrille settings --json`, tables.json that of `quadrille settings --tables`; a test
+compares them.
 
 Independent of FreeCAD; needs only the standard library.
 """
@@ -14,6 +15,10 @@ from typing import Any, Callable, Dict, List, Optional, SupportsIndex, Union
 #: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
 #: choices, otherwise, help.
 SETTINGS: List[Dict[str, Any]] = json.loads((Path(__file__).parent.parent / "settings.json").read_text(encoding="utf-8"))
+#: The mesher's mesh formats (ending, name, read, written, for_solvers, nine_nodes) and quality criteria (name, unit, ideal,
+#: limit), under the keys "formats" and "criteria".
+TABLES: Dict[str, List[Dict[str, Any]]] = json.loads(
+    (Path(__file__).parent.parent / "tables.json").read_text(encoding="utf-8"))
 BY_NAME = {setting["name"]: setting for setting in SETTINGS}
 
 #: Settings that do not change the mesh.

@@ -12,7 +12,7 @@ import quadrille_commands
 
 from ..core.errors import Error
 from ..core.jobs import find_mesher
-from ..core.setting_table import ORDERS, default_size
+from ..core.setting_table import ORDERS, TABLES, default_size
 from ..core.units import digits
 from ..document import picks, regions
 from ..document.groups import analysis_of
@@ -27,11 +27,9 @@ from .mesh_clicks import picked
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
-#: The file formats that the mesher writes, for the file dialog.
-FORMATS = {
-    "CalculiX, Abaqus": "inp", "Gmsh": "msh", "I-DEAS universal": "unv", "MED (Salome, Code_Aster)": "med",
-    "VTK XML (ParaView)": "vtu", "VTK legacy": "vtk", "Nastran": "bdf",
-}
+#: The file formats that the mesher writes, for the file dialog, which shows the first.
+FORMATS = {row["name"]: row["ending"][1:] for row in sorted(TABLES["formats"], key=lambda row: bool(row["ending"] != ".inp"))
+           if row["written"]}
 
 
 def mesh_in_question(with_surfaces: bool = False):
