@@ -50,7 +50,8 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const Mi
   ShellMesh result = assemble(run, boundary, faces, crossed);
   note_off_geometry(result);
   std::vector<std::string> defects = shell_defects(model.shape(), faces_used(model, options), result);
-  for (const AreaDifference& found : area_differences(model, result))
+  const AreasChecked checked = options.check_curved_areas ? AreasChecked::all : AreasChecked::planes;
+  for (const AreaDifference& found : area_differences(model, result, checked))
     (found.is_certain ? defects : result.warnings).push_back(found.sentence);
   if (!defects.empty() && !options.partial)
     throw failure("", fmt::format("{}; `partial` writes the mesh all the same", fmt::join(defects, "; ")));

@@ -69,6 +69,9 @@ struct MeshOptions {
   /// Refuse a face that has no valid mesh on its surface, instead of delivering it with nodes up to the least
   /// size off it (ShellMesh::off_geometry).
   bool strict = false;
+  /// Warn if the area of a curved face differs from the CAD face, which takes up to 4 % of the work. Plane
+  /// faces are always compared, since a difference there can end the run.
+  bool check_curved_areas = true;
   std::filesystem::path write_size_field;  ///< .vdb file for the sizing field; empty = not written
   /// Called once with the mesh and its sizing field, which are valid only during the call. Empty = not
   /// called.

@@ -451,6 +451,32 @@ TEST(Robustness, WarnsOfAreasThatFlatElementsDoNotExplain) {
   part.quads.resize(part.quads.size() * 4 / 5);
   part.quad_faces.resize(part.quads.size());
   EXPECT_EQ(area_differences(sphere, part).size(), 1u);
+  EXPECT_TRUE(area_differences(sphere, part, AreasChecked::planes).empty());
+}
+
+TEST(Robustness, ComparesCurvedAreasOnlyIfAsked) {
+  const CadModel model = model_of(trouble_named("false_poles"));
+  MeshOptions options;
+  options.sizing.size = model.diagonal() / 20;
+  ExecutionContext context(1);
+  const auto warns = [&] {
+    const auto warnings = mesh(model, options, context).warnings;
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& warning) { return warning.find("area of") != warning.npos; });
+  };
+  EXPECT_TRUE(warns());
+  options.check_curved_areas = false;
+  EXPECT_FALSE(warns());
+  // A wrong plane face is found all the same, and as certainly.
+  const CadModel disc = model_of(trouble_named("disc"));
+  ShellMesh part = mesh_of(disc, 20);
+  part.quads.resize(part.quads.size() / 2);
+  part.quad_faces.resize(part.quads.size());
+  for (const AreasChecked checked : {AreasChecked::all, AreasChecked::planes}) {
+    const auto found = area_differences(disc, part, checked);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_TRUE(found.front().is_certain);
+  }
 }
 
 TEST(Robustness, KeepsTheNumbersOfEdgesThatAreSplit) {

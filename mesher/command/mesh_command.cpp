@@ -282,6 +282,8 @@ void run(const MeshArguments& arguments) {
   MeshOptions options = settings.mesh;
   options.order = order_of(arguments, arguments.outputs);
   options.write_size_field = arguments.write_size_field;
+  const bool is_told = !arguments.quiet || !arguments.report.empty();
+  options.check_curved_areas = is_told;  // whose differences are warnings only
   std::optional<SizeFidelity> sizes;
   if (!arguments.report.empty())
     options.inspect = [&](const ShellMesh& made, const SizingField& field) {
@@ -290,8 +292,7 @@ void run(const MeshArguments& arguments) {
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
   std::future<Measured> measured;
-  if (!arguments.quiet || !arguments.report.empty())
-    measured = start_to_measure(result, model, !arguments.report.empty(), settings.threads);
+  if (is_told) measured = start_to_measure(result, model, !arguments.report.empty(), settings.threads);
   write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
                 cancel);
   list_left_out(result);

@@ -162,21 +162,25 @@ double cad_volume(const CadShape& shape) {
 
 }  // namespace
 
-std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh) {
+std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh,
+                                             AreasChecked checked) {
   constexpr double largest = 0.03, of_loss = 2;
+  const bool planes_only = checked == AreasChecked::planes;
   const CadShape& shape = model.shape();
   IdVector<FaceId, double> areas(shape.faces.size());
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
     areas[FaceId::from_number(mesh.quad_faces[i])] += quad_area_vector(mesh.points, mesh.quads[i]).norm();
   const JoinedFaces joined(mesh);
   IdVector<FaceId, double> integrals(areas.size());
-  FaceFlags planes(areas.size());
+  FaceFlags planes(areas.size());  // 1 = plane, and shares no quads
   for_each_id(areas, [&](FaceId face) {
     integrals[face] = areas[face];
-    if (!(areas[face] > 0) && !joined.contains(face.number())) return;
+    const bool is_joined = joined.contains(face.number());
+    if (is_joined ? planes_only : !(areas[face] > 0)) return;
     try {
-      planes[face] = FaceSurface(shape.faces[face]).planar();
-      integrals[face] = cad_area(shape, face, planes[face] != 0);
+      const bool is_plane = FaceSurface(shape.faces[face]).planar();
+      planes[face] = is_plane && !is_joined;
+      if (is_plane || !planes_only) integrals[face] = cad_area(shape, face, is_plane);
     } catch (const Standard_Failure&) {
       return;  // no integral to compare with
     }
@@ -193,7 +197,8 @@ std::vector<AreaDifference> area_differences(const CadModel& model, const ShellM
   const auto difference = [&](FaceId face) { return std::abs(areas[face] - integrals[face]); };
   FaceFlags differ(areas.size());
   for (const FaceId face : areas.ids())
-    differ[face] = difference(first(face)) > largest * integrals[first(face)];
+    differ[face] =
+        (planes[face] || !planes_only) && difference(first(face)) > largest * integrals[first(face)];
   std::vector<AreaDifference> result;
   if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
   const FlatLoss loss(shape, mesh, differ);
@@ -204,7 +209,8 @@ std::vector<AreaDifference> area_differences(const CadModel& model, const ShellM
   for (const CadEdge& edge : shape.edges)
     for (const FaceId face : edge.faces) shifts[first(face)] += 0.5 * mesh.size_min * edge.length;
   constexpr double large = 0.01;
-  const double whole = std::accumulate(integrals.begin(), integrals.end(), 0.0);
+  double whole = 0;  // the same whatever is checked
+  for (const FaceId face : areas.ids()) whole += planes[face] ? integrals[face] : areas[face];
   for (const FaceId face : areas.ids()) {
     if (!differ[face] ||
         difference(face) <= largest * integrals[face] + of_loss * losses[face] + shifts[face])
@@ -215,7 +221,7 @@ std::vector<AreaDifference> area_differences(const CadModel& model, const ShellM
                      face.number(),
                      joined.contains(face.number()) ? " with the faces that share quads with it" : "",
                      number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])),
-         planes[face] && !joined.contains(face.number()) && difference(face) > large * whole});
+         planes[face] && difference(face) > large * whole});
   }
   return result;
 }

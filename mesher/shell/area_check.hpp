@@ -18,11 +18,16 @@ struct AreaDifference {
   bool is_certain = false;
 };
 
+/// Which faces are compared. Differences on all but plane faces that share no quads are never certain.
+enum class AreasChecked { all, planes };
+
 /// Compares the quads of each meshed face, or of faces that share quads, with the CAD face. They may differ
 /// by 3 %, by twice the area that flat elements with straight sides lose, and by a strip as wide as what is
 /// suppressed along all its edges. Beyond that the size is too coarse for the shape, the file contradicts
 /// itself, or the integral is wrong. Takes about a tenth of a millisecond per face, and more on splines.
-std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh);
+/// \param checked the differences that are certain are found either way
+std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh,
+                                             AreasChecked checked = AreasChecked::all);
 
 /// Volumes of solids, model units cubed.
 struct Volumes {
