@@ -17,8 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Balancer {
  public:
-  explicit Balancer(BalanceProblem& problem)
+  Balancer(BalanceProblem& problem, const std::function<void()>& check)
       : problem_(problem),
+        check_(check),
         variables_(problem.variables),
         sums_(problem.sums()),
         at_node_(problem.rules.size()) {
@@ -86,6 +87,7 @@ class Balancer {
     constexpr int tries = 8;
     banned_.clear();
     for (int i = 0; i < tries; ++i) {
+      check_();
       const std::vector<Step> walk = find_walk({start, problem_.rules[start] == Rule::even ? 0
                                                        : sums_[start] > 0                  ? -1
                                                                                            : 1});
@@ -184,6 +186,7 @@ class Balancer {
   }
 
   BalanceProblem& problem_;
+  const std::function<void()>& check_;
   std::vector<BalanceProblem::Variable>& variables_;
   std::vector<int> sums_;
   std::vector<std::vector<int>> at_node_;
@@ -200,8 +203,8 @@ std::vector<int> BalanceProblem::sums() const {
   return result;
 }
 
-std::vector<int> balance(BalanceProblem& problem) {
-  return Balancer(problem).run();
+std::vector<int> balance(BalanceProblem& problem, const std::function<void()>& check) {
+  return Balancer(problem, check).run();
 }
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #pragma once
 /// Integers near wanted values whose sums must balance. Internal.
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct BalanceProblem {
 /// from the wanted one. The model's edges form a bidirected graph here: Heistermann et al.,
 /// Min-Deviation-Flow in Bi-directed Graphs for T-Mesh Quantization (2023), solve the same problem exactly.
 /// \return the nodes whose rules remain broken, ascending; empty = solved. Time: (sum of all errors) x
-/// (variables reached) x log.
-std::vector<int> balance(BalanceProblem& problem);
+/// (variables reached) x log. \param check called once for each path; may throw
+std::vector<int> balance(
+    BalanceProblem& problem, const std::function<void()>& check = [] {});
 
 }  // namespace quadrille

@@ -118,7 +118,7 @@ class CountChooser {
   }
 
   /// Throws if fixed numbers cannot be kept. \param odd faces that stay odd.
-  void hold_fixed(const std::vector<FaceId>& odd) const {
+  void hold_fixed(const std::vector<FaceId>& odd) {
     for (const EdgeId chord : fixed_.ids()) {
       const int fixed = fixed_[chord];
       if (chords_.of(chord) != chord || fixed % units_[chord] == 0) continue;
@@ -131,10 +131,33 @@ class CountChooser {
     for (const FaceId face : odd) {
       const std::string names = fixed_edges([&](EdgeId edge) { return is_on(edge, sides_[face]); });
       if (names.empty()) continue;
-      throw usage_error("segments", fmt::format("`segments` leaves Face{} with an odd number of segments "
-                                                "around it: use one more or one fewer on one of {}",
-                                                face.number(), names));
+      throw usage_error("segments",
+                        fmt::format("`segments` leaves Face{} with {} around it: {}", face.number(),
+                                    targets_.stride == 2 ? "a number of segments that is no multiple of four"
+                                                         : "an odd number of segments",
+                                    numbers_that_work(face, odd.size(), names)));
     }
+  }
+
+  /// What to do about a face that stays odd. \param odd number of faces that do
+  std::string numbers_that_work(FaceId face, std::size_t odd, const std::string& names) {
+    std::vector<std::string> ways;
+    for (const EdgeId chord : fixed_.ids()) {
+      const auto is_here = [&](EdgeId edge) {
+        return chords_.of(edge) == chord && is_on(edge, sides_[face]);
+      };
+      const std::string edges = chords_.of(chord) == chord ? fixed_edges(is_here) : "";
+      if (edges.empty()) continue;
+      const int fixed = fixed_[chord], less = fixed - units_[chord], more = fixed + units_[chord];
+      fixed_[chord] = more;
+      const std::vector<FaceId> left = make_faces_even();
+      fixed_[chord] = fixed;
+      if (left.size() >= odd || std::find(left.begin(), left.end(), face) != left.end()) continue;
+      ways.push_back(less > 0 ? fmt::format("{} or {} on {}", less, more, edges)
+                              : fmt::format("{} on {}", more, edges));
+    }
+    if (ways.empty()) return "change the numbers on two or more of " + names;
+    return fmt::format("use {}", fmt::join(ways, ", or "));
   }
 
   static bool is_on(EdgeId edge, const FaceSides& sides) {
@@ -283,6 +306,7 @@ class CountChooser {
     for (const FaceId face : sides_.ids()) {
       if (!is_waiting_[face]) continue;
       any = true;
+      targets_.check();
       if (!take_steps_of(face)) drop(face);
       is_waiting_[face] = 0;
     }
@@ -318,7 +342,7 @@ class CountChooser {
     add_facing(face);
     drop_idle_terms();
     const double cost = deviation(problem_);
-    if (balance(problem_).empty() && deviation(problem_) <= cost + most) return true;
+    if (balance(problem_, targets_.check).empty() && deviation(problem_) <= cost + most) return true;
     for (std::size_t i = 0; i < values.size(); ++i) {
       problem_.variables[i].value = values[i];
       std::erase_if(problem_.variables[i].terms, [&](const auto& term) { return term.first >= rules; });
@@ -379,10 +403,11 @@ class CountChooser {
   std::vector<FaceId> balance_faces() {
     std::vector<FaceId> odd;
     for (bool dropped = true; dropped;) {
+      targets_.check();
       set_up_rules();
       dropped = false;
       odd.clear();
-      for (const int node : balance(problem_)) {
+      for (const int node : balance(problem_, targets_.check)) {
         const FaceId face = faces_of_nodes_[node];
         if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face);
         if (sides_[face].facing.empty()) continue;
@@ -410,7 +435,7 @@ class CountChooser {
       }
     }
     std::vector<FaceId> left;
-    const EdgeFlags change = make_even(edges, odd, left);
+    const EdgeFlags change = make_even(edges, odd, left, targets_.check);
     for (const EdgeId chord : edges.ids()) {
       if (change[chord]) variable(chord).value += change_of(variable(chord));
     }

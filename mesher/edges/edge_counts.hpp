@@ -1,6 +1,7 @@
 #pragma once
 /// Chooses the number of segments of each edge. Internal.
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct CountTargets {
   IdVector<EdgeId, int> least_of_grids;  ///< least number in the final mesh if only grids use the chord
   IdVector<EdgeId, int> fixed;           ///< segments of the final mesh that users prescribe; 0 = any number
   EdgeFlags even;                        ///< 1 = even number of segments though the stride is 1; may be empty
+  std::function<void()> check = [] {};   ///< called during long work; may throw
 };
 
 struct EdgeCounts {

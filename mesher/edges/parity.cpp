@@ -30,7 +30,8 @@ int lowest_bit(const Bits& bits) {
 }
 
 /// Solves for the odd faces with the cheapest basis of columns. Faces that cannot be made even stay odd.
-EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd) {
+EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd,
+                    const std::function<void()>& check) {
   struct Row {
     Bits faces, combination;
   };
@@ -43,6 +44,7 @@ EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd) {
   const std::size_t face_words = (odd.size() + 63) / 64, edge_words = (edges.size() + 63) / 64;
   std::map<int, Row> basis;  // by lowest bit
   for (const EdgeId edge : order) {
+    check();
     Row row{Bits(face_words), Bits(edge_words)};
     for (const FaceId face : edges[edge].faces) flip(row.faces, face.index());
     flip(row.combination, edge.index());
@@ -79,8 +81,9 @@ EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd) {
 
 }  // namespace
 
-EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd) {
-  EdgeFlags change = eliminate(edges, odd);
+EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd,
+                    const std::function<void()>& check) {
+  EdgeFlags change = eliminate(edges, odd, check);
   for (const FaceId face : odd.ids()) {
     if (odd[face]) left_odd.push_back(face);
   }

@@ -1,6 +1,7 @@
 #pragma once
 /// Makes the sum of the counts around every face even. Internal.
 
+#include <functional>
 #include <vector>
 
 #include "geometry/cad/ids.hpp"
@@ -15,7 +16,10 @@ struct ParityEdge {
 
 /// Chooses a cheap set of edges to change by one so that every odd face becomes even (a T-join): no edge of
 /// the set costs more than it must. Edges may have any number of faces. Faces that cannot be made even are
-/// added to `left_odd`. \return 1 = change the edge's count.
-EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd);
+/// added to `left_odd`. Time: edges x faces squared at worst. \param check called once for each edge; may
+/// throw \return 1 = change the edge's count.
+EdgeFlags make_even(
+    const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd,
+    const std::function<void()>& check = [] {});
 
 }  // namespace quadrille

@@ -72,7 +72,7 @@ class SingleSegments {
     for (const EdgeId edge : edges.ids())
       if (is_single(edge)) edges[chord(edge)].cost += 1;
     std::vector<FaceId> left;
-    const EdgeFlags keep = make_even(edges, odd, left);
+    const EdgeFlags keep = make_even(edges, odd, left, targets_.check);
     for (const EdgeId edge : keep.ids())
       if (keep[edge]) single_[edge] = 0;
   }
