@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -56,25 +57,18 @@ class TipFinder {
       : shape_(shape), tiny_(tiny), width_(width) {}
 
   void find(FaceId id) {
+    std::vector<const Coedge*> arriving;
+    std::multimap<VertexId, const Coedge*> leaving;  // wires may touch at a vertex
     for (const CadWire& wire : shape_.faces[id].wires) {
-      std::vector<const Coedge*> left;
       for (const Coedge& coedge : wire.coedges) {
-        if (!tiny_.collapsed_edges[coedge.edge] && !shape_.edges[coedge.edge].degenerate)
-          left.push_back(&coedge);
+        if (!wire.ordered || tiny_.collapsed_edges[coedge.edge] || !may_end(id, coedge)) continue;
+        arriving.push_back(&coedge);
+        leaving.emplace(end_of(coedge, !coedge.forward), &coedge);
       }
-      const std::size_t n = left.size();
-      if (!wire.ordered || n < 2) continue;
-      for (std::size_t k = 0; k < n; ++k) {
-        const Coedge &before = *left[k], &after = *left[(k + 1) % n];
-        if (before.edge == after.edge || !may_end(id, before) || !may_end(id, after)) continue;
-        if (taken_.contains({before.edge, before.forward}) || taken_.contains({after.edge, !after.forward}))
-          continue;
-        const auto tip = tip_between(id, before, after);
-        if (!tip) continue;
-        taken_.insert({before.edge, before.forward});
-        taken_.insert({after.edge, !after.forward});
-        found_.push_back(*tip);
-      }
+    }
+    for (const Coedge* before : arriving) {
+      const auto [first, last] = leaving.equal_range(end_of(*before, before->forward));
+      for (auto after = first; after != last; ++after) add(id, *before, *after->second);
     }
   }
 
@@ -84,16 +78,27 @@ class TipFinder {
   bool may_end(FaceId id, const Coedge& coedge) const {
     const CadEdge& edge = shape_.edges[coedge.edge];
     return !coedge.internal && !edge.degenerate && edge.first_vertex.exists() && edge.last_vertex.exists() &&
-           !tiny_.closed(edge) && tiny_.edges[coedge.edge] == coedge.edge &&
+           tiny_.edges[coedge.edge] == coedge.edge &&
            most_of_edge * edge.length > least_slenderness * width_ &&
            std::count(edge.faces.begin(), edge.faces.end(), id) == 1;
   }
 
+  VertexId end_of(const Coedge& coedge, bool last) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
+    return tiny_.end(last ? edge.last_vertex : edge.first_vertex);
+  }
+
+  void add(FaceId id, const Coedge& before, const Coedge& after) {
+    const std::pair arrival{before.edge, before.forward}, departure{after.edge, !after.forward};
+    if (before.edge == after.edge || taken_.contains(arrival) || taken_.contains(departure)) return;
+    const auto tip = tip_between(id, before, after);
+    if (!tip) return;
+    taken_.insert({arrival, departure});
+    found_.push_back(*tip);
+  }
+
   std::optional<Tip> tip_between(FaceId id, const Coedge& before, const Coedge& after) const {
     const CadEdge &a = shape_.edges[before.edge], &b = shape_.edges[after.edge];
-    if (tiny_.end(before.forward ? a.last_vertex : a.first_vertex) !=
-        tiny_.end(after.forward ? b.first_vertex : b.last_vertex))
-      return std::nullopt;
     const EdgeCurve first(a), second(b);
     const Vector3 to = (before.forward ? -1 : 1) * first.derivative(before.forward ? a.last : a.first),
                   from = (after.forward ? 1 : -1) * second.derivative(after.forward ? b.first : b.last);

@@ -19,13 +19,13 @@ struct Tip {
     double parameter = 0;  ///< of the edge, where the other one is as far away as the width
   };
   FaceId face;
-  Flank before, after;  ///< the wire runs to the tip along the first, and away along the second
+  Flank before, after;  ///< the boundary runs to the tip along the first, and away along the second
 };
 
-/// The tips of the used faces: vertices at which two edges of a face stay closer than `width` over more than
-/// 2.5 times that length, on less than half of either edge. Edges that became points are not seen, and tips
-/// beside edges that share the nodes of others are left out. \param used 1 = the face is meshed, and not
-/// merged by `tiny` \param width model units; 0 = none is found
+/// The tips of the used faces: vertices at which two edges of a face, of one wire or of two that touch, stay
+/// closer than `width` over more than 2.5 times that length, on less than half of either edge. Edges that
+/// became points are not seen, and tips beside edges that share the nodes of others are left out. \param used
+/// 1 = the face is meshed, and not merged by `tiny` \param width model units; 0 = none is found
 std::vector<Tip> find_tips(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
                            double width);
 

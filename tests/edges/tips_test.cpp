@@ -4,13 +4,25 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Shell.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/quadrille.hpp"
+#include "mesher/shell/area_check.hpp"
 #include "mesher/shell/validate.hpp"
 #include "tests/support/sheet.hpp"
 
@@ -111,6 +123,61 @@ TEST(Tips, EndMeshesOfTheSecondOrderToo) {
   const ShellMesh mesh = meshed(plate_with_wedge(10), options);
   EXPECT_TRUE(ends_early(mesh, 1));
   EXPECT_EQ(validate(mesh), std::vector<std::string>{});
+}
+
+/// A disc of radius 20, cut in two along a circle that touches its rim from inside. Each circle is one edge.
+CadModel disc_with_touching_circle(double radius) {
+  const TopoDS_Vertex vertex = BRepBuilderAPI_MakeVertex(gp_Pnt(20, 0, 0));
+  const auto circle = [&](double of) {
+    const gp_Circ curve(gp_Ax2(gp_Pnt(20 - of, 0, 0), gp::DZ()), of);
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(curve, vertex, vertex).Edge()).Wire();
+  };
+  const TopoDS_Wire rim = circle(20), inner = circle(radius);
+  BRepBuilderAPI_MakeFace around(gp_Pln(gp::XOY()), rim);
+  around.Add(TopoDS::Wire(inner.Reversed()));
+  TopoDS_Shell shell;
+  const BRep_Builder builder;
+  builder.MakeShell(shell);
+  builder.Add(shell, around.Face());
+  builder.Add(shell, BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), inner).Face());
+  return CadModel(std::make_shared<CadShape>(shell, "disc"));
+}
+
+TEST(Tips, LieOnBothSidesOfAVertexWhereWiresTouch) {
+  const CadModel model = disc_with_touching_circle(12);
+  const auto tips = tips_of(model, 0.3);
+  ASSERT_EQ(tips.size(), 2U);
+  for (const Tip& tip : tips) {
+    EXPECT_EQ(tip.face.number(), 1);
+    EXPECT_NE(tip.before.edge, tip.after.edge);
+    EXPECT_EQ(tip.before.at_end, tip.after.at_end);  // both run counterclockwise
+  }
+  EXPECT_NE(tips[0].before.edge, tips[1].before.edge);
+}
+
+TEST(Tips, EndWhereWiresTouch) {
+  const CadModel model = disc_with_touching_circle(12);
+  for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
+    MeshOptions options;
+    options.sizing.size = 2;
+    options.order = 2;
+    options.strategy = strategy;
+    ExecutionContext context(1);
+    const ShellMesh early = mesh(model, options, context);
+    options.keep_features = true;
+    const ShellMesh whole = mesh(model, options, context);
+    for (const ShellMesh* mesh : {&early, &whole}) EXPECT_EQ(validate(*mesh), std::vector<std::string>{});
+    EXPECT_TRUE(ends_early(early, 1));
+    EXPECT_FALSE(ends_early(early, 2));
+    EXPECT_FALSE(ends_early(whole, 1));
+    EXPECT_LT(check_criteria(early).failing, check_criteria(whole).failing);
+    EXPECT_TRUE(area_differences(model, early).empty());
+    // No quad of the outer face has the vertex where the circles touch.
+    for (std::size_t i = 0; i < early.quads.size(); ++i) {
+      if (early.quad_faces[i] != 1) continue;
+      for (const int node : early.quads[i]) EXPECT_GT((early.points[node] - Vector3(20, 0, 0)).norm(), 1);
+    }
+  }
 }
 
 }  // namespace
