@@ -14,7 +14,9 @@
 #include <memory>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "mesher/io/readers.hpp"
 #include "mesher/quadrille.hpp"
+#include "tests/fuzz/option_bytes.hpp"
 #include "tests/models/trouble_models.hpp"
 
 namespace quadrille {
@@ -66,6 +68,12 @@ constexpr const char* command_lines[] = {
     "mesh\n--help",
 };
 
+/// Puts the bytes that choose the options before a file.
+void put_options_first(const std::filesystem::path& path) {
+  const std::string bytes = whole_file(path);
+  std::ofstream(path, std::ios::binary) << std::string(fuzz::OptionBytes::count, '\0') << bytes;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
   for (const char* format : {"brep", "step", "iges", "msh", "inp", "unv", "bdf", "vdb", "options"}) {
     std::filesystem::create_directories(folder / format);
@@ -80,6 +88,9 @@ void write_seeds(const std::filesystem::path& folder) {
     } catch (const Error& error) {
       std::fprintf(stderr, "%s: %s\n", trouble.name.c_str(), error.what());
     }
+  }
+  for (const auto& file : std::filesystem::recursive_directory_iterator(folder)) {
+    if (file.is_regular_file()) put_options_first(file.path());
   }
   int number = 0;
   for (const char* line : command_lines) {
