@@ -9,21 +9,7 @@ file(CREATE_LINK ${command} ${PROJECT_BINARY_DIR}/link/quadrille SYMBOLIC)
 install(FILES ${PROJECT_BINARY_DIR}/link/quadrille DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
 install(TARGETS ${MODULES} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/quadrille COMPONENT library)
 
-# The library: what mesher/quadrille.hpp and mesher/settings.hpp include, and nothing else.
-set(PUBLIC_HEADERS
-  geometry/base/api.hpp geometry/base/error.hpp geometry/base/execution_context.hpp geometry/base/rigid_motion.hpp
-  geometry/base/trimmed_domain.hpp
-  geometry/base/vector.hpp geometry/cad/cad_model.hpp geometry/cad/ids.hpp geometry/midsurface/midsurface.hpp
-  geometry/sizing/element_count.hpp geometry/sizing/sizing_field.hpp geometry/sizing/sizing_options.hpp
-  mesher/estimate.hpp mesher/io/io.hpp mesher/io/limits_reader.hpp mesher/io/midsurface_writer.hpp
-  mesher/mesh/criteria.hpp mesher/mesh/inp_element.hpp mesher/mesh/mesh_types.hpp mesher/mesh/quality.hpp mesher/options.hpp
-  mesher/pairing/recombine.hpp mesher/pairing/recombine_options.hpp mesher/quadrille.hpp
-  mesher/quads/improve_options.hpp mesher/remesh/remesh.hpp mesher/settings.hpp mesher/shell/from_triangles.hpp
-  mesher/shell/validate.hpp mesher/size_map.hpp)
-foreach(header ${PUBLIC_HEADERS})
-  cmake_path(GET header PARENT_PATH folder)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/quadrille/${folder} COMPONENT development)
-endforeach()
+install(DIRECTORY ${PUBLIC_INCLUDES}/quadrille DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(TARGETS quadrille_library EXPORT quadrille-targets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
 set(CONFIG_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/quadrille)

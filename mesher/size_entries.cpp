@@ -248,7 +248,7 @@ Entries bias_both_of(const SizingOptions& sizing) {
 void set_layers(SizingOptions& sizing, const Entries& entries) {
   constexpr const char* what =
       "the first height, the ratio (1 to 3) and the number of layers such as Edge4=0.1,1.2,6";
-  constexpr double steepest = 3, most = 1000;
+  constexpr double steepest = 3, max_layers = 1000;
   sizing.layers = {};
   for (const std::string& entry : entries) {
     const std::size_t equals = std::min(entry.find('='), entry.size());
@@ -256,7 +256,7 @@ void set_layers(SizingOptions& sizing, const Entries& entries) {
     const std::vector<double> values =
         equals < entry.size() ? numbers(std::string_view(entry).substr(equals + 1)) : std::vector<double>();
     if (values.size() != 3 || !(values[0] > 0) || !(values[1] >= 1 && values[1] <= steepest) ||
-        !(values[2] >= 1 && values[2] <= most && values[2] == std::floor(values[2])))
+        !(values[2] >= 1 && values[2] <= max_layers && values[2] == std::floor(values[2])))
       refuse(what, entry);
     auto& layers = sizing.layers;
     const int face = number_of(name, "Face"), edge = number_of(name, "Edge"),

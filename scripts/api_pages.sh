@@ -16,7 +16,7 @@ if ! command -v doxygen >/dev/null; then
 fi
 mkdir -p "$folder"
 # Documents exactly the headers that are installed.
-headers=$(sed -n '/^set(PUBLIC_HEADERS/,/)/p' cmake/install.cmake | grep -o '[a-z_0-9/]*\.hpp')
+headers=$(sed -n '/^set(PUBLIC_HEADERS/,/)/p' cmake/public_headers.cmake | grep -o '[a-z_0-9/]*\.hpp')
 (
   cat docs/Doxyfile
   echo "INPUT = docs/api.md" $headers

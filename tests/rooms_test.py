@@ -55,6 +55,18 @@ def room_of(path):
     raise AssertionError(f"{path} is in no room that tests/rooms_test.py knows")
 
 
+def reached(text):
+    """The files of geometry/ and mesher/ that a source includes, and those that their sources include."""
+    found, left = set(), INCLUDE.findall(text)
+    while left:
+        name = left.pop()
+        if name in found or not (ROOT / name).exists():
+            continue
+        found.add(name)
+        left += INCLUDE.findall((ROOT / name).read_text()) + [name.replace(".hpp", ".cpp")]
+    return found
+
+
 class Rooms(unittest.TestCase):
     def test_flow_is_one_way(self):
         files = sorted(p for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.?pp"))
@@ -74,6 +86,27 @@ class Rooms(unittest.TestCase):
             self.assertIn(room, {name.split("/")[1] for name in ROOMS}, test)
             stem = test.stem.removesuffix("_test")
             self.assertTrue(stem in modules, f"{test} tests no module of that name")
+
+    def test_modules_have_tests_or_a_reason(self):
+        """Each module has a test of its name or stands in untested_modules.txt with the test that covers it, and no other does."""
+        modules = {p.relative_to(ROOT).with_suffix("").as_posix().removesuffix("_windows")
+                   for top in ("geometry", "mesher") for p in (ROOT / top).rglob("*.cpp")}
+        named = {p.stem.removesuffix("_test") for p in (ROOT / "tests").rglob("*_test.cpp")}
+        lines = [line.split(" | ") for line in (ROOT / "tests/untested_modules.txt").read_text().splitlines()
+                 if line and not line.startswith("#")]
+        listed = [line[0] for line in lines]
+        self.assertEqual(listed, sorted(set(listed)))
+        untested = {module for module in modules if module.split("/")[-1] not in named}
+        self.assertGreater(len(modules - untested), 90)
+        self.assertEqual(untested - set(listed), set(), "write a test, or list the one that covers it")
+        self.assertEqual(set(listed) - untested, set(), "has a test now, or is gone")
+        for module, test, reason in lines:
+            name, case = test.split(" ")
+            self.assertGreater(len(reason), 5, module)
+            text = (ROOT / name).read_text()
+            self.assertTrue(re.search(rf", {case}\)" if name.endswith(".cpp") else rf"\b{case}\b", text), f"{name} has no {case}")
+            if name.endswith(".cpp") and not name.startswith("tests/command/"):
+                self.assertIn(module.rpartition("/")[0], {file.rpartition("/")[0] for file in reached(text)}, f"{test}, {module}")
 
     def test_a_face_is_sorted_once(self):
         """Its kind is decided in face_sides and known to the maker of grids; the counting of segments asks what follows from it, and

@@ -93,10 +93,10 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  constexpr std::size_t most = std::size_t{1} << 30;
+  constexpr std::size_t bytes_at_once = std::size_t{1} << 30;
   while (!bytes.empty()) {
     DWORD written = 0;
-    if (!::WriteFile(file_, bytes.data(), static_cast<DWORD>(std::min(bytes.size(), most)), &written,
+    if (!::WriteFile(file_, bytes.data(), static_cast<DWORD>(std::min(bytes.size(), bytes_at_once)), &written,
                      nullptr))
       fail(::GetLastError());
     bytes.remove_prefix(written);

@@ -21,7 +21,7 @@ struct Character {
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80) return {byte(0), 1};
-  constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};  // by number of bytes
+  constexpr std::array<std::uint32_t, 5> least_code{0, 0, 0x80, 0x800, 0x10000};  // by number of bytes
   const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
   if (byte(0) < 0xc0 || byte(0) > 0xf7 || text.size() < bytes) return {};
   std::uint32_t code = byte(0) & (0x7fU >> bytes);
@@ -30,7 +30,7 @@ Character first_character(std::string_view text) {
     code = code << 6U | (byte(i) & 0x3fU);
   }
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < least[bytes] || code > 0x10ffff || is_surrogate) return {};
+  if (code < least_code[bytes] || code > 0x10ffff || is_surrogate) return {};
   return {code, bytes};
 }
 

@@ -14,8 +14,8 @@ namespace quadrille {
 /// (failure) if it does not fit an int: a count that large comes from damaged geometry, and a loop over it
 /// would not end.
 inline int to_int(double value) {
-  constexpr double most = std::numeric_limits<int>::max();
-  if (!(std::abs(value) < most))
+  constexpr double largest_int = std::numeric_limits<int>::max();
+  if (!(std::abs(value) < largest_int))
     throw failure("", fmt::format("a count of {:g} was computed: the geometry there may be damaged", value));
   return static_cast<int>(value);
 }

@@ -130,8 +130,8 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
 
 /// The first sentences of a list, and how many more there are.
 std::string first_few(const std::vector<std::string>& all) {
-  constexpr std::size_t most = 8;
-  const std::size_t shown = std::min(all.size(), most);
+  constexpr std::size_t max_shown = 8;
+  const std::size_t shown = std::min(all.size(), max_shown);
   std::string text =
       fmt::format("{}", fmt::join(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
   if (all.size() > shown) text += fmt::format("; and {} more", all.size() - shown);

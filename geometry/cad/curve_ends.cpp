@@ -53,11 +53,11 @@ class CurveEndMender {
     const Vector3& vertex = shape_.vertices[edge.first_vertex];
     const double reach = shape_.vertex_tolerances[edge.first_vertex];
     const auto distance = [&](double share) { return (point_on(edge, share) - vertex).norm(); };
-    constexpr double near = 1e-3;  // share of the edge's length
-    if (std::max(distance(0), distance(1)) <= std::max(near * edge.length, edge.tolerance)) return false;
-    constexpr int samples = 8;
-    for (int i = 0; i <= samples; ++i) {
-      if (distance(static_cast<double>(i) / samples) > reach) return false;
+    constexpr double ends_off = 1e-3;  // share of the edge's length
+    if (std::max(distance(0), distance(1)) <= std::max(ends_off * edge.length, edge.tolerance)) return false;
+    constexpr int edge_parts = 8;
+    for (int i = 0; i <= edge_parts; ++i) {
+      if (distance(static_cast<double>(i) / edge_parts) > reach) return false;
     }
     return true;
   }
@@ -100,14 +100,14 @@ class CurveEndMender {
 
   /// Makes one vertex of each place where curves end. The place with the most ends keeps the number.
   void split(VertexId vertex) {
-    constexpr double near = 0.01;  // share of the length of the shortest edge there
+    constexpr double reach_share = 0.01;  // share of the length of the shortest edge there
     std::vector<CurveEnd> left = ends_at(vertex);
     double shortest = shape_.edges[left.front().edge].length, tolerance = 0;
     for (const CurveEnd& end : left) {
       shortest = std::min(shortest, shape_.edges[end.edge].length);
       tolerance = std::max(tolerance, shape_.edges[end.edge].tolerance);
     }
-    const double reach = std::max(near * shortest, tolerance);
+    const double reach = std::max(reach_share * shortest, tolerance);
     std::vector<std::vector<CurveEnd>> places;
     while (!left.empty()) {
       auto& place = places.emplace_back(1, left.back());

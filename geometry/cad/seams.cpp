@@ -36,9 +36,9 @@ namespace quadrille {
 
 namespace {
 
-constexpr int samples = 16;  // intervals of a sampled parametric curve
+constexpr int line_intervals = 16;  // intervals of a sampled parametric curve
 
-using Polyline = std::array<Vector2, samples + 1>;
+using Polyline = std::array<Vector2, line_intervals + 1>;
 
 struct SampledWire {
   TopoDS_Wire wire;
@@ -123,8 +123,8 @@ class ClosedSurfaceFace {
       if (curve.IsNull() || !(std::abs(last - first) < 1e50)) break;
       if (edge.Orientation() == TopAbs_REVERSED) std::swap(first, last);
       Polyline line;
-      for (int i = 0; i <= samples; ++i) {
-        const gp_Pnt2d p = curve->Value(first + (last - first) * i / samples);
+      for (int i = 0; i <= line_intervals; ++i) {
+        const gp_Pnt2d p = curve->Value(first + (last - first) * i / line_intervals);
         line[i] = {p.X(), p.Y()};
         sampled.low = sampled.low.cwiseMin(line[i]);
         sampled.high = sampled.high.cwiseMax(line[i]);
@@ -140,7 +140,7 @@ class ClosedSurfaceFace {
       return;
     }
     for (const Polyline& line : sampled.lines) {
-      for (int i = 0; i < samples; ++i) {
+      for (int i = 0; i < line_intervals; ++i) {
         const Vector2 a = line[i] - sampled.low, b = line[i + 1] - sampled.low;
         sampled.area += 0.5 * (a.x() * b.y() - a.y() * b.x());
       }
@@ -154,8 +154,8 @@ class ClosedSurfaceFace {
     for (const SampledWire& outer : wires_) {
       for (std::size_t i = 0; i < outer.edges.size(); ++i) {
         if (!BRep_Tool::IsClosed(outer.edges[i], face_)) continue;
-        if (enclosed.inside(outer.lines[i][samples / 2])) return true;
-        for (int k = 0; k < samples; ++k) {
+        if (enclosed.inside(outer.lines[i][line_intervals / 2])) return true;
+        for (int k = 0; k < line_intervals; ++k) {
           if (crosses(hole, outer.lines[i][k], outer.lines[i][k + 1])) return true;
         }
       }
@@ -171,7 +171,7 @@ class ClosedSurfaceFace {
       return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
     };
     for (const Polyline& line : hole.lines) {
-      for (int i = 0; i < samples; ++i) {
+      for (int i = 0; i < line_intervals; ++i) {
         const Vector2 &c = line[i], &d = line[i + 1];
         if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
       }
@@ -318,7 +318,7 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
     for (const SampledWire& outer : sampled.wires()) {
       for (std::size_t i = 0; i < outer.edges.size(); ++i) {
         if (!BRep_Tool::IsClosed(outer.edges[i], face)) continue;
-        if (!enclosed.inside(outer.lines[i][samples / 2])) continue;
+        if (!enclosed.inside(outer.lines[i][line_intervals / 2])) continue;
         left_out.Add(outer.edges[i]);
         const Vector2 along = (outer.lines[i].back() - outer.lines[i].front()).cwiseAbs();
         const int axis = along.x() < along.y() ? 0 : 1;
@@ -343,7 +343,7 @@ TopoDS_Face joined_with_seam(const TopoDS_Face& source) {
       if (left_out.Contains(wire.edges[i])) continue;
       edges.push_back(wire.edges[i]);
       if (!wire.crosses_seam) continue;
-      const Vector2 middle = wire.lines[i][samples / 2];
+      const Vector2 middle = wire.lines[i][line_intervals / 2];
       Vector2 shift(0, 0);
       for (const int axis : {0, 1}) {
         if (middle[axis] < low[axis]) shift[axis] = sampled.period(axis);

@@ -16,8 +16,8 @@ namespace {
 
 /// Parameters from one end to the other, with places between the knots.
 std::vector<double> spread(const TColStd_Array1OfReal& knots) {
-  constexpr int enough = 16, least = 2;
-  const int intervals = knots.Length() - 1, parts = std::max(least, (enough + intervals - 1) / intervals);
+  constexpr int places = 16, min_parts = 2;
+  const int intervals = knots.Length() - 1, parts = std::max(min_parts, (places + intervals - 1) / intervals);
   std::vector<double> result;
   for (int i = knots.Lower(); i < knots.Upper(); ++i) {
     for (int part = 0; part < parts; ++part)
@@ -94,10 +94,10 @@ std::optional<ClosestPoint::Step> ClosestPoint::step(const Place& at, const gp_P
     kept[i] = slope[i] > 0 ? at.uv[i] <= bounds_[2 * i] : at.uv[i] >= bounds_[2 * i + 1];
   const double metric_u = du.SquareMagnitude(), metric_v = dv.SquareMagnitude(), metric_uv = du.Dot(dv);
   double a = metric_u + off.Dot(duu), b = metric_uv + off.Dot(duv), c = metric_v + off.Dot(dvv);
-  constexpr double least = 1e-3;  // over what it is without curvature: there the second derivatives mislead
+  constexpr double floor = 1e-3;  // over what it is without curvature: there the second derivatives mislead
   const double flat = metric_u * metric_v - metric_uv * metric_uv;
   if (!(flat > 1e-12 * metric_u * metric_v)) return std::nullopt;
-  if (a < least * metric_u || c < least * metric_v || a * c - b * b < least * flat) {
+  if (a < floor * metric_u || c < floor * metric_v || a * c - b * b < floor * flat) {
     a = metric_u;
     b = metric_uv;
     c = metric_v;

@@ -38,8 +38,8 @@ double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
     length += border.length / static_cast<double>(borders.size());
     thickness = std::max(thickness, walls[border.wall].thickness);
   }
-  constexpr double least = 0.1, most = 3;  // radians; outside of this range it is not a corner
-  if (turn < least || turn > most) return 0;
+  constexpr double least_turn = 0.1, most_turn = 3;  // radians; outside of this range it is not a corner
+  if (turn < least_turn || turn > most_turn) return 0;
   const double width = fillet.area() / length, arc = turn - first.turn - second->turn;
   double chord = width, segment = 0;
   if (std::abs(arc) > 1e-3) {

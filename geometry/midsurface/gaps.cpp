@@ -113,8 +113,8 @@ std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const S
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Beside& a, const Beside& b) { return a.length > b.length; });
-  constexpr std::size_t enough = 12;
-  if (result.size() > enough) result.resize(enough);
+  constexpr std::size_t longest_kept = 12;
+  if (result.size() > longest_kept) result.resize(longest_kept);
   return result;
 }
 

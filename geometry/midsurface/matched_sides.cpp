@@ -45,7 +45,7 @@ std::vector<TopoDS_Edge> smooth_edges(const SkinFace& a, const SkinFace& b) {
 
 /// The end of a face's parameters along which all of an edge lies: 0 low u, 1 high u, 2 low v, 3 high v.
 std::optional<int> end_along(const TopoDS_Face& face, const TopoDS_Edge& edge) {
-  constexpr double near = 1e-5;  // over the range
+  constexpr double slack = 1e-5;  // over the range
   std::array<double, 4> bounds{};
   BRepTools::UVBounds(face, bounds[0], bounds[1], bounds[2], bounds[3]);
   double first = 0, last = 0;
@@ -57,11 +57,11 @@ std::optional<int> end_along(const TopoDS_Face& face, const TopoDS_Edge& edge) {
     const double along = bounds[3 - 2 * across] - bounds[2 - 2 * across];
     const auto off = [&](double share) {
       const gp_Pnt2d uv = curve->Value((1 - share) * first + share * last);
-      return std::abs(uv.Coord(across + 1) - bounds[end]) > near * range;
+      return std::abs(uv.Coord(across + 1) - bounds[end]) > slack * range;
     };
     const double length =
         std::abs(curve->Value(first).Coord(2 - across) - curve->Value(last).Coord(2 - across));
-    if (!off(0) && !off(0.3) && !off(0.5) && !off(0.8) && !off(1) && length > (1 - near) * along) return end;
+    if (!off(0) && !off(0.3) && !off(0.5) && !off(0.8) && !off(1) && length > (1 - slack) * along) return end;
   }
   return std::nullopt;
 }

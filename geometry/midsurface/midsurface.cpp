@@ -195,11 +195,11 @@ std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions&
 
 std::string face_names(const std::vector<int>& numbers) {
   std::vector<std::string> names;
-  constexpr std::size_t most = 12;
-  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i) {
+  constexpr std::size_t names_shown = 12;
+  for (std::size_t i = 0; i < std::min(names_shown, numbers.size()); ++i) {
     names.push_back(fmt::format("Face{}", numbers[i]));
   }
-  if (numbers.size() > most) names.push_back(fmt::format("{} more", numbers.size() - most));
+  if (numbers.size() > names_shown) names.push_back(fmt::format("{} more", numbers.size() - names_shown));
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -390,7 +390,7 @@ void check_volume(const std::string& name, MidSurface& result, std::vector<std::
 
 /// Where free edges end inside the material, by faces of the solid, and what to do about it.
 std::string stray_sentence(const MidSurface& result, const std::string& name) {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t places_shown = 4;
   std::vector<std::string> places;
   for (const std::vector<int>& faces : result.stray_faces) {
     std::vector<std::string> names;
@@ -400,7 +400,7 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
         (names.size() > 1 ? "between " : "at ") + fmt::format("{}", fmt::join(names, " and "));
     if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
   }
-  const std::size_t more = places.size() - std::min(most, places.size());
+  const std::size_t more = places.size() - std::min(places_shown, places.size());
   places.resize(places.size() - more);
   if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
   const bool one = result.stray_edges.size() == 1;
@@ -420,13 +420,13 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
     for (const int face : middle.faces[i].coverage.faces)
       faces[part[i]].push_back(skin.faces()[face].number());
   }
-  constexpr std::size_t most = 4;
+  constexpr std::size_t parts_shown = 4;
   std::vector<std::string> parts;
-  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(parts_shown, faces.size()); ++i) {
     sort_unique(faces[i]);
     parts.push_back(face_names(faces[i]));
   }
-  if (faces.size() > most) parts.push_back(fmt::format("and {} more", faces.size() - most));
+  if (faces.size() > parts_shown) parts.push_back(fmt::format("and {} more", faces.size() - parts_shown));
   return fmt::format(
       "{}: the middle surface is in {} separate parts although the solid is in one piece: between {}",
       middle.name, faces.size(), fmt::join(parts, "; "));

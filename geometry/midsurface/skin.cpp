@@ -77,12 +77,12 @@ void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor
 /// Points inside a face, evenly spread over its parameters but in no rows, in which holes may lie too; more
 /// and more until there are enough.
 std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
-  constexpr int most = 256;
+  constexpr int max_rows = 256;
   const BRepAdaptor_Surface surface(face, Standard_True);
   const InsideTest inside(face);
   const double u = surface.FirstUParameter(), v = surface.FirstVParameter();
   std::vector<FaceSample> result;
-  for (int n = 16; n <= most && std::ssize(result) < at_least; n *= 2) {
+  for (int n = 16; n <= max_rows && std::ssize(result) < at_least; n *= 2) {
     result.clear();
     const double du = (surface.LastUParameter() - u) / n, dv = (surface.LastVParameter() - v) / n;
     for (int i = 0; i < n * n; ++i) {

@@ -631,7 +631,7 @@ std::optional<gp_Vec> way_from(const TopoDS_Face& fence, const gp_Pnt& point) {
 /// exactly opposite to each other if the two radii have different centers.
 int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const FaceEdge& edge,
                 double thickness) {
-  constexpr double near = 0.02;
+  constexpr double reach = 0.02;  // over the thickness
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends[i].wall != wall || ends[i].next != next || ends[i].step) continue;
     bool along = true;
@@ -639,7 +639,7 @@ int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const Face
       if (!along) break;
       const double at = edge.first() + share * (edge.last() - edge.first());
       const auto way = way_from(ends[i].fence, edge.inside(at, 0.5 * thickness));
-      along = way && way->Magnitude() < near * thickness;
+      along = way && way->Magnitude() < reach * thickness;
     }
     if (along) return static_cast<int>(i);
   }
@@ -749,7 +749,7 @@ class WallEnds {
   /// Whether fences of the thicker wall, at which the thinner one ends too, stand all along the edge. They
   /// stand across the thicker wall; the thinner one may lean.
   bool ends_at_fence(const Thinner& thinner) const {
-    constexpr double near = 0.35;  // over the thickness; half of it times the sine of the steepest slope
+    constexpr double reach = 0.35;  // over the thickness; half of it times the sine of the steepest slope
     const double t = walls_[thinner.wall].thickness;
     for (const double share : {0.5, 0.05, 0.95}) {
       const FaceEdge& edge = thinner.edge;
@@ -759,7 +759,7 @@ class WallEnds {
       const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
         if (end.wall != thinner.wall || end.next != thinner.next.wall || !end.step) return false;
         const auto way = way_from(end.fence, middle);
-        return way && way->Magnitude() < near * t;
+        return way && way->Magnitude() < reach * t;
       });
       if (!stands) return false;
     }
@@ -816,12 +816,12 @@ std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls
 /// The angle between the normals of `face` and `beside` at the edge, if `beside` rises from the face away
 /// from the material: tangent to it (0) or at an obtuse angle.
 std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
-  constexpr double tangent = 5 * M_PI / 180, most = 85 * M_PI / 180;
+  constexpr double tangent = 5 * M_PI / 180, steepest = 85 * M_PI / 180;
   const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
   const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));
   if (!own || !other) return std::nullopt;
   const double turn = own->Angle(*other);
-  if (turn > most || (turn > tangent && !edge.in_corner())) return std::nullopt;
+  if (turn > steepest || (turn > tangent && !edge.in_corner())) return std::nullopt;
   double above = 0;
   for (const FaceSample& sample : beside.samples(8))
     above += sample.area * gp_Vec(at, sample.point).Dot(gp_Vec(*own));

@@ -221,7 +221,7 @@ bool is_filleted_corner(const Skin& skin, const Wall& wall) {
 /// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
 /// skin inside the bend would turn over. Where both radii of a bend are equal, its middle is nearly a corner.
 bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_BSplineSurface) & middle) {
-  constexpr double most = 0.9;  // half the thickness over the radius
+  constexpr double max_bend = 0.9;  // half the thickness over the radius
   std::array<double, 4> range{};
   middle->Bounds(range[0], range[1], range[2], range[3]);
   GeomLProp_SLProps at(middle, 2, 1e-9);
@@ -229,8 +229,8 @@ bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_B
     at.SetParameters(u, v);
     if (!at.IsCurvatureDefined()) return false;
     const double curvature = std::max(std::abs(at.MaxCurvature()), std::abs(at.MinCurvature()));
-    if (curvature * wall.thickness < most) return false;  // spares the search where it is nearly flat
-    return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > most;
+    if (curvature * wall.thickness < max_bend) return false;  // spares the search where it is nearly flat
+    return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > max_bend;
   };
   for (const double share : {0.25, 0.5, 0.75}) {
     const double u = (1 - share) * range[0] + share * range[1];

@@ -263,11 +263,11 @@ std::string_view Contacts::remedy() const {
 
 std::string Contacts::sentence(const std::set<std::string_view>& tried) const {
   if (faces.empty()) return "";
-  constexpr std::size_t most = 4;
+  constexpr std::size_t pairs_shown = 4;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i)
+  for (std::size_t i = 0; i < std::min(pairs_shown, faces.size()); ++i)
     names.push_back(fmt::format("Face{} and Face{}", faces[i][0], faces[i][1]));
-  const char* more = faces.size() > most ? ", ..." : "";
+  const char* more = faces.size() > pairs_shown ? ", ..." : "";
   const std::string along =
       edges > 0 ? fmt::format(", {} pair(s) of their edges lie on each other", edges) : "";
   return fmt::format(

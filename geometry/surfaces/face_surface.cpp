@@ -38,7 +38,7 @@ double nearest_period(double angle, double reference, double period) {
 
 /// A plane onto which a surface is projected, and samples of the surface to start searches from.
 struct FaceSurface::View {
-  static constexpr int samples = 48, buckets = 32;
+  static constexpr int across = 48, buckets = 32;
   Vector3 origin, x, y, normal;
   Vector2 low, high;                        // bounds of the samples in the plane
   Vector2 least_uv, greatest_uv;            // bounds within which the surface may be evaluated
@@ -113,9 +113,9 @@ FaceSurface FaceSurface::seen_from_above(const CadFace& face, const std::vector<
   // Orient the plane's normal to the side that most of the surface shows.
   std::vector<std::pair<Vector2, SurfacePoint>> samples;
   int towards = 0;
-  for (int i = 0; i < View::samples * View::samples; ++i) {
-    const Vector2 t(i % View::samples, i / View::samples);
-    const Vector2 uv = surface.low_ + t.cwiseProduct(surface.high_ - surface.low_) / (View::samples - 1);
+  for (int i = 0; i < View::across * View::across; ++i) {
+    const Vector2 t(i % View::across, i / View::across);
+    const Vector2 uv = surface.low_ + t.cwiseProduct(surface.high_ - surface.low_) / (View::across - 1);
     const SurfacePoint at = surface.evaluate(uv);
     towards += at.du.cross(at.dv).dot(view->normal) > 0 ? 1 : -1;
     samples.emplace_back(uv, at);

@@ -107,7 +107,7 @@ class SizePlan {
   /// so each draft is judged by the sizes in its field.
   Draft find() const {
     constexpr int most_drafts = 12;
-    constexpr double near = 0.005;
+    constexpr double count_tolerance = 0.005;
     // The expected error is off by about a tenth, and an error just above the wanted one costs another round.
     constexpr double margin = 0.9;
     double factor = 1;
@@ -116,7 +116,7 @@ class SizePlan {
       const double step = options_.count > 0
                               ? std::sqrt(draft.count / options_.count)
                               : std::pow(margin * options_.error / draft.error, 1.0 / order_of(mesh_));
-      if (k == most_drafts || std::abs(step - 1) < near || !std::isfinite(step)) return draft;
+      if (k == most_drafts || std::abs(step - 1) < count_tolerance || !std::isfinite(step)) return draft;
       factor *= step;
     }
   }
@@ -178,12 +178,12 @@ class SizePlan {
   }
 
   double size_at_corner(int node, double factor) const {
-    constexpr double most = 4;  // largest factor by which a size changes in one round
+    constexpr double max_change = 4;  // largest factor by which a size changes in one round
     double ratio = factor * even_[node] / at_points_[node];
     // At singular stresses the square of a quad's error is at best proportional to the second power of its
     // size. That power is assumed.
     if (singular_[node] && ratio < 1) ratio = std::pow(ratio, order_of(mesh_) + 1);
-    const double size = at_points_[node] * std::clamp(ratio, 1 / most, most);
+    const double size = at_points_[node] * std::clamp(ratio, 1 / max_change, max_change);
     const double largest =
         options_.size_max > 0 ? options_.size_max : std::numeric_limits<double>::infinity();
     return std::clamp(size, options_.size_min, largest);

@@ -51,7 +51,7 @@ class PeakFinder {
 
   std::vector<StressPeak> find() const {
     constexpr double least_share = 0.3, apart = 3;
-    constexpr std::size_t most = 10;
+    constexpr std::size_t max_peaks = 10;
     const double largest = *std::max_element(stress_.begin(), stress_.end());
     std::vector<std::size_t> order(stress_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -68,7 +68,7 @@ class PeakFinder {
         return (other.at - at).norm() < apart * std::max(size, other.size);
       });
       if (is_apart) peaks.push_back({at, stress_[node], size, is_sharp_corner(node)});
-      if (peaks.size() == most) break;
+      if (peaks.size() == max_peaks) break;
     }
     return peaks;
   }
@@ -138,7 +138,7 @@ std::vector<StressPeak> stress_peaks(const ShellMesh& mesh,
 
 std::vector<PeakChange> changes_of_peaks(const std::vector<StressPeak>& before,
                                          const std::vector<StressPeak>& now) {
-  constexpr double near = 2, settled = 0.05;
+  constexpr double same_place = 2, settled = 0.05;
   std::vector<PeakChange> changes;
   for (const StressPeak& peak : now) {
     const auto distance = [&](const StressPeak& other) { return (other.at - peak.at).norm(); };
@@ -146,7 +146,7 @@ std::vector<PeakChange> changes_of_peaks(const std::vector<StressPeak>& before,
       return distance(a) < distance(b);
     });
     if (nearest == before.end() || !(nearest->stress > 0) ||
-        distance(*nearest) > near * std::max(peak.size, nearest->size))
+        distance(*nearest) > same_place * std::max(peak.size, nearest->size))
       continue;
     const double change = peak.stress / nearest->stress - 1;
     if (std::abs(change) > settled) changes.push_back({peak, change});

@@ -12,9 +12,9 @@
 namespace quadrille::command {
 
 void write_to_stdout(std::string_view text) {
-  constexpr std::size_t most = 1 << 14;  // consoles refuse more at once
+  constexpr std::size_t bytes_at_once = 1 << 14;  // consoles refuse more at once
   while (!text.empty()) {
-    const unsigned count = static_cast<unsigned>(std::min(text.size(), most));
+    const unsigned count = static_cast<unsigned>(std::min(text.size(), bytes_at_once));
     const int written = ::_write(::_fileno(stdout), text.data(), count);
     if (written < 0)
       throw failure("stdout", fmt::format("cannot write to the standard output: {}", std::strerror(errno)));

@@ -92,10 +92,10 @@ bool crowd(const Span& a, const Span& b) {
 /// The number of pieces of each of two segments from which on they neither cross nor crowd each other; 0 =
 /// none found. Always 0 for a view from above, since the parametric curves do not lie in its plane.
 int pieces_apart(const FaceBoundary& boundary, const FaceSurface& surface, const std::pair<int, int>& pair) {
-  constexpr int most = 32;
+  constexpr int max_pieces = 32;
   const auto &s = boundary.segments[pair.first], &t = boundary.segments[pair.second];
   if (s.degenerate || t.degenerate || surface.is_view()) return 0;
-  for (int pieces = 2; pieces <= most; pieces *= 2) {
+  for (int pieces = 2; pieces <= max_pieces; pieces *= 2) {
     if (cross(refined(boundary, s, pieces), refined(boundary, t, pieces))) continue;
     const bool need_room = boundary.stride == 2 && !boundary.touch(s, t);
     if (!need_room || !crowd(Span(refined(boundary, s, 2 * pieces)), Span(refined(boundary, t, 2 * pieces))))

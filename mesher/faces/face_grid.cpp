@@ -163,11 +163,11 @@ class GridMaker {
 
   /// The places of rows between two points by the sizing field, as shares of the line in the parameter plane.
   std::vector<double> rows_between(int from, int to) {
-    constexpr int samples = 32;
+    constexpr int steps_on_line = 32;
     std::vector<double> counts{0};
     Vector3 before = grid_.points[from];
-    for (int i = 1; i <= samples; ++i) {
-      const double t = static_cast<double>(i) / samples;
+    for (int i = 1; i <= steps_on_line; ++i) {
+      const double t = static_cast<double>(i) / steps_on_line;
       const Vector3 here = surface_.point((1 - t) * grid_.uv[from] + t * grid_.uv[to]);
       counts.push_back(counts.back() + (here - before).norm() / size_at_(0.5 * (here + before)));
       before = here;
@@ -176,7 +176,7 @@ class GridMaker {
     std::vector<double> shares{0};
     for (int k = 1; k < rows; ++k) {
       const auto [cell, part] = place_in(counts, counts.back() * k / rows);
-      shares.push_back((static_cast<double>(cell) + part) / samples);
+      shares.push_back((static_cast<double>(cell) + part) / steps_on_line);
     }
     shares.push_back(1);
     return shares;

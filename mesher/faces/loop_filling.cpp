@@ -78,10 +78,10 @@ void flip_flat(const std::vector<Vector3>& points, const std::set<std::pair<int,
 
 std::vector<std::array<int, 3>> fill_loops(const std::vector<Vector3>& points,
                                            const std::vector<std::vector<int>>& loops, bool flips) {
-  constexpr std::size_t most = 2000;
+  constexpr std::size_t max_points = 2000;
   std::size_t count = 0;
   for (const std::vector<int>& loop : loops) count += loop.size();
-  if (loops.empty() || count > most) return {};
+  if (loops.empty() || count > max_points) return {};
   std::vector<int> outline = loops.front();
   for (std::size_t i = 1; i < loops.size(); ++i) join_hole(points, loops[i], outline);
   std::vector<Point> polyline;

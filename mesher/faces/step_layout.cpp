@@ -92,9 +92,9 @@ void StepLayout::measure(const std::vector<Vector3>& points) {
     (along ? widths_ : heights_)[band] += (points[step.to] - points[step.from]).norm();
     ++counts[along ? 0 : 1][band];
   }
-  constexpr double least = std::numeric_limits<double>::min();
-  for (int i = 0; i < columns_; ++i) widths_[i] = std::max(widths_[i] / counts[0][i], least);
-  for (int j = 0; j < rows_; ++j) heights_[j] = std::max(heights_[j] / counts[1][j], least);
+  constexpr double smallest_positive = std::numeric_limits<double>::min();
+  for (int i = 0; i < columns_; ++i) widths_[i] = std::max(widths_[i] / counts[0][i], smallest_positive);
+  for (int j = 0; j < rows_; ++j) heights_[j] = std::max(heights_[j] / counts[1][j], smallest_positive);
 }
 
 std::vector<Vector2> StepLayout::spread(const std::vector<Vector2>& uv, SparseCheck& check) const {

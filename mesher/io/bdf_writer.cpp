@@ -118,8 +118,8 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
 }  // namespace
 
 void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
-  constexpr std::size_t most = 99'999'999;  // the largest number in 8 columns
-  if (mesh.nodes().size() > most || static_cast<std::size_t>(mesh.shell_count()) > most)
+  constexpr std::size_t largest_number = 99'999'999;  // the largest number in 8 columns
+  if (mesh.nodes().size() > largest_number || static_cast<std::size_t>(mesh.shell_count()) > largest_number)
     throw failure(".bdf", "the mesh has more nodes or elements than .bdf files can number");
   out << "$ " << options.title << "\nCEND\n";
   write_sets(mesh, out);

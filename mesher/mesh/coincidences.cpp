@@ -141,11 +141,11 @@ class Count {
 
 /// "Face3, Face7, ...": at most eight names.
 std::string names(const char* kind, const std::vector<int>& numbers) {
-  constexpr std::size_t most = 8;
+  constexpr std::size_t names_shown = 8;
   std::vector<std::string> shown;
-  for (std::size_t i = 0; i < std::min(most, numbers.size()); ++i)
+  for (std::size_t i = 0; i < std::min(names_shown, numbers.size()); ++i)
     shown.push_back(fmt::format("{}{}", kind, numbers[i]));
-  return fmt::format("{}{}", fmt::join(shown, ", "), numbers.size() > most ? ", ..." : "");
+  return fmt::format("{}{}", fmt::join(shown, ", "), numbers.size() > names_shown ? ", ..." : "");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace quadrille {
 namespace {
 
 constexpr std::size_t large = 1 << 18;  // smaller ones fit the caches
-constexpr std::size_t samples = 1024;
+constexpr std::size_t sampled_triangles = 1024;
 
 /// Spreads the bits of a number below 2^10: two zero bits follow each.
 std::uint32_t spread(std::uint32_t x) {
@@ -58,7 +58,7 @@ bool is_scattered(const TriangleMesh& mesh) {
   if (mesh.triangles.size() < large) return false;
   double jump = 0;
   std::size_t count = 0;
-  const std::size_t every = mesh.triangles.size() / samples;
+  const std::size_t every = mesh.triangles.size() / sampled_triangles;
   for (std::size_t t = 0; t + 1 < mesh.triangles.size(); t += every, ++count) {
     jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t][1]);
     jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t + 1][0]);

@@ -98,10 +98,10 @@ class Skins {
   }
 
   Vector3 nodal_normal(int node, const Vector3& own) const {
-    constexpr double least = 0.9397;  // the cosine of 20 degrees: across sharper corners nodes are doubled
+    constexpr double cosine = 0.9397;  // the cosine of 20 degrees: across sharper corners nodes are doubled
     Vector3 sum = Vector3::Zero();
     for (const Vector3& other : around_[node]) {
-      if (std::abs(other.dot(own)) > least) sum += other.dot(own) > 0 ? other : Vector3(-other);
+      if (std::abs(other.dot(own)) > cosine) sum += other.dot(own) > 0 ? other : Vector3(-other);
     }
     return sum.norm() > 0 ? Vector3(sum.normalized()) : own;
   }
@@ -137,11 +137,11 @@ std::vector<int> faces_with_bad_skins(const ShellMesh& mesh) {
 
 std::string bad_skins_sentence(const std::vector<int>& faces) {
   if (faces.empty()) return {};
-  constexpr std::size_t most = 12;
+  constexpr std::size_t names_shown = 12;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(most, faces.size()); ++i)
+  for (std::size_t i = 0; i < std::min(names_shown, faces.size()); ++i)
     names.push_back(fmt::format("Face{}", faces[i]));
-  if (faces.size() > most) names.push_back(fmt::format("{} more", faces.size() - most));
+  if (faces.size() > names_shown) names.push_back(fmt::format("{} more", faces.size() - names_shown));
   return fmt::format(
       "elements of {} are inverted on a surface of the shell, since it is too thick for its bend radius "
       "there: solvers that expand shells refuse them; make the bend a sharp corner, or mesh it as a solid",

@@ -44,7 +44,7 @@ class Walker {
   static constexpr int flip_price = 3, concave_price = 30;
   /// How many sides are looked at for the cheapest way. Targets beyond that are approached directly;
   /// otherwise the cost of a few walks would grow with the mesh.
-  static constexpr int far = 20'000;
+  static constexpr int max_sides_searched = 20'000;
 
   /// How a side was reached; all zero if it was not.
   struct Reached {
@@ -115,7 +115,7 @@ class Walker {
       queue_.pop();
       const int distance = reached_[s].distance - 1;
       if (!aim && static_cast<int>(key) != distance) continue;
-      if (!aim && static_cast<int>(touched_.size()) > far) {
+      if (!aim && static_cast<int>(touched_.size()) > max_sides_searched) {
         exhausted = false;
         return false;
       }

@@ -270,12 +270,12 @@ class Cavities : private EditedMesh {
                         [&](const PolygonFilling& filling) { return put(filling); });
   }
 
-  /// The mean distance of the quads from the industry criteria; no quad counts for more than `most`.
+  /// The mean distance of the quads from the industry criteria; no quad counts for more than `max_each`.
   double mean_objective(const std::vector<Quad>& quads) const {
-    constexpr double most = 20;
+    constexpr double max_each = 20;
     double sum = 0;
     for (const Quad& q : quads)
-      sum += std::min(most, measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3])).value);
+      sum += std::min(max_each, measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3])).value);
     return sum / static_cast<double>(quads.size());
   }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr double huge = 1e30;
 constexpr double tiny = std::numeric_limits<double>::min();
 /// Bound on an objective, so that a quad that the CAD forces out of shape does not outweigh its neighbors.
-constexpr double most = 1000;
+constexpr double ceiling = 1000;
 /// A quad with a smaller cosine between its normal and `up` is drawn in the plane of u and v instead.
 constexpr double facing = 0.1;
 constexpr double limit(Criterion criterion) {
@@ -83,7 +83,7 @@ struct Plane {
     side2 = ss;
     const double least = std::min(std::min(cp, cb), std::min(cc, cd));
     sine2 = least > 0 ? std::min(std::min(qp, qb), std::min(qc, qd)) : -1;
-    value = least > 0 ? sum / (1 + sum * (1 / most)) : huge;
+    value = least > 0 ? sum / (1 + sum * (1 / ceiling)) : huge;
   }
 };
 
@@ -113,11 +113,11 @@ struct Frame {
 QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
                                 double squareness) {
   const Frame frame(a, b, c, d);
-  if (frame.length == 0) return {most, -1, frame.normal};
+  if (frame.length == 0) return {ceiling, -1, frame.normal};
   const Vector3 ab = b - a, ad = d - a;
   const Plane plane(0, 0, frame.x.dot(ab), frame.y.dot(ab), frame.length, 0, frame.x.dot(ad), frame.y.dot(ad),
                     squareness);
-  return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), frame.normal};
+  return {std::min(plane.value, ceiling), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), frame.normal};
 }
 
 FlatQuad::FlatQuad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d, const Vector3& up,
@@ -145,7 +145,7 @@ void FlatQuad::move(int corner, double x, double y) {
 
 QuadObjective FlatQuad::measure() const {
   const Plane plane(x_[0], y_[0], x_[1], y_[1], x_[2], y_[2], x_[3], y_[3], 0);
-  return {std::min(plane.value, most), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), Vector3::Zero()};
+  return {std::min(plane.value, ceiling), plane.sine2 < 0 ? -1 : std::sqrt(plane.sine2), Vector3::Zero()};
 }
 
 std::array<double, 2> FlatQuad::sides_at(int corner) const {

@@ -58,7 +58,7 @@ double EditedMesh::worst(std::span<const Quad> quads) const {
 }
 
 bool EditedMesh::too_long(std::span<const Quad> before, std::span<const Quad> quads) const {
-  constexpr double far = 1.9;
+  constexpr double max_over_mean = 1.9;
   const auto side = [&](const Quad& q, int k) { return (point(q[k]) - point(q[(k + 1) & 3])).norm(); };
   double sum = 0, most = 0, longest = 0;
   for (const Quad& q : before)
@@ -68,7 +68,7 @@ bool EditedMesh::too_long(std::span<const Quad> before, std::span<const Quad> qu
     }
   for (const Quad& q : quads)
     for (int k = 0; k < 4; ++k) longest = std::max(longest, side(q, k));
-  return longest > std::max(most, far * sum / (4 * static_cast<double>(before.size())));
+  return longest > std::max(most, max_over_mean * sum / (4 * static_cast<double>(before.size())));
 }
 
 bool EditedMesh::trace(const SmallPatch& patch, Outline& outline) const {

@@ -237,10 +237,10 @@ class Remesher : public ShellGeometry {
 
   void find_targets() {
     targets_.assign(surface_.mesh.points.size(), 2 * options_.size);
-    const std::vector<double> most = longest_sides();
+    const std::vector<double> longest_of_piece = longest_sides();
     for (std::size_t t = 0; t < surface_.pieces.size(); ++t)
       for (const int v : surface_.mesh.triangles[t])
-        targets_[v] = std::min(targets_[v], most[surface_.pieces[t]]);
+        targets_[v] = std::min(targets_[v], longest_of_piece[surface_.pieces[t]]);
   }
 
   void hold_budget() const {

@@ -86,13 +86,13 @@ class FlatLoss {
   double turning_of(int number) {
     auto& turning = turnings_[number];
     if (turning) return *turning;
-    constexpr int samples = 32;
+    constexpr int parts_of_edge = 32;
     const CadEdge& edge = shape_.edges[EdgeId::from_number(number)];
     const EdgeCurve curve(edge);
     double sum = 0;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < parts_of_edge; ++i) {
       const auto at = [&](int k) {
-        return curve.derivative(edge.first + (edge.last - edge.first) * k / samples);
+        return curve.derivative(edge.first + (edge.last - edge.first) * k / parts_of_edge);
       };
       sum += angle_between(at(i), at(i + 1));
     }

@@ -176,9 +176,9 @@ class Joining {
     const CadEdge& cad = shape_.edges[id];
     const FaceId a = cad.faces.front(), b = cad.faces.back();
     if (a == b) return true;  // a seam
-    constexpr int samples = 5;
-    for (int i = 0; i < samples; ++i) {
-      const double t = cad.first + (cad.last - cad.first) * (i + 0.5) / samples;
+    constexpr int places_on_edge = 5;
+    for (int i = 0; i < places_on_edge; ++i) {
+      const double t = cad.first + (cad.last - cad.first) * (i + 0.5) / places_on_edge;
       const Vector3 first = normal_at(a, id, t), second = normal_at(b, id, t);
       if (!(first.dot(second) > smooth_cosine)) return false;
     }

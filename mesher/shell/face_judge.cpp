@@ -16,8 +16,8 @@ namespace {
 /// The share of quads outside the usual limits for criteria other than warp. In large meshes a sample of
 /// about a thousand quads is measured.
 double share_outside(const FaceMesh& mesh) {
-  constexpr std::size_t enough = 1000;
-  const std::size_t step = 1 + mesh.quads.size() / enough;
+  constexpr std::size_t quads_measured = 1000;
+  const std::size_t step = 1 + mesh.quads.size() / quads_measured;
   const CriteriaLimits limits;
   const auto& p = mesh.points;
   int outside = 0, measured = 0;
@@ -39,13 +39,13 @@ bool has_rows(const FaceMesh& grid) {
   return 2 * static_cast<double>(grid.quads.size()) > 3 * static_cast<double>(grid.nodes.size());
 }
 
-/// The sum over the quads of how far their objective exceeds `fine`. Each quad counts up to `most`.
+/// The sum over the quads of how far their objective exceeds `fine`. Each quad counts up to `worst_counted`.
 double badness(const FaceMesh& mesh) {
-  constexpr double fine = 0.5, most = 10;
+  constexpr double fine = 0.5, worst_counted = 10;
   double sum = 0;
   const auto& p = mesh.points;
   for (const auto& [a, b, c, d] : mesh.quads)
-    sum += std::clamp(measure_objective(p[a], p[b], p[c], p[d]).value - fine, 0.0, most);
+    sum += std::clamp(measure_objective(p[a], p[b], p[c], p[d]).value - fine, 0.0, worst_counted);
   return sum;
 }
 

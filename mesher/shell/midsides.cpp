@@ -22,8 +22,8 @@ Vector3 surface_middle(const MeshSurface& surface, const FaceMesh& face, int a, 
   uv = surface.between(ends);
   Vector3 middle = surface.nearest(uv, target);
   // If the parametrization is uneven, the search may not get there from the middle parameter.
-  constexpr double far = 0.25;
-  if ((middle - target).norm() <= far * (face.points[b] - face.points[a]).norm()) return middle;
+  constexpr double near_share = 0.25;
+  if ((middle - target).norm() <= near_share * (face.points[b] - face.points[a]).norm()) return middle;
   for (Vector2 other : ends) {
     const Vector3 nearer = surface.nearest(other, target);
     if ((nearer - target).norm() >= (middle - target).norm()) continue;

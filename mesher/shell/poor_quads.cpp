@@ -178,10 +178,10 @@ class Finder {
   std::optional<Row> row_of(int quad, int shortest) const {
     Row result{length(quad, shortest), {}};
     for (const int direction : {1, 3}) {
-      constexpr int most = 8;  // rows: more are not a strip
+      constexpr int max_rows = 8;  // rows: more are not a strip
       int at = quad, k = (shortest + direction) & 3;
       int& end = result.edges[direction / 2];
-      for (int row = 0; row < most && end == 0; ++row) {
+      for (int row = 0; row < max_rows && end == 0; ++row) {
         const std::uint64_t key = side(at, k);
         if (const auto edge = edge_of_.find(key); edge != edge_of_.end()) {
           end = edge->second;

@@ -174,8 +174,8 @@ class Straightening {
 
   /// The Jacobian bound that a repaired element needs: 0.02, but at most half of that with straight sides.
   double wanted(std::size_t quad) const {
-    constexpr double enough = 0.02;
-    return std::min(enough, 0.5 * quick_jacobian_bound(straight_quad(mesh_, quad)));
+    constexpr double safe_bound = 0.02;
+    return std::min(safe_bound, 0.5 * quick_jacobian_bound(straight_quad(mesh_, quad)));
   }
 
   /// Raises the shares of an element's sides until it does not fold: first those inside faces, then all.

@@ -2,6 +2,7 @@
 
 import argparse
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -43,11 +44,25 @@ class Consumer(unittest.TestCase):
         run("cmake", "--install", self.build, "--prefix", first)
         # Nothing of the place where it was built or installed may matter.
         shutil.move(first, moved)
+        self.assertEqual([p.name for p in (moved / "include").iterdir()], ["quadrille"])
+        for header in (moved / "include").rglob("*.hpp"):
+            for included in re.findall(r'#include "([^"]+)"', header.read_text()):
+                self.assertTrue((moved / "include" / included).exists() and included.startswith("quadrille/"), f"{header}: {included}")
         run("cmake", "-S", HERE, "-B", self.folder / "build", f"-DCMAKE_PREFIX_PATH={moved}", "-DCMAKE_BUILD_TYPE=Release")
         run("cmake", "--build", self.folder / "build")
         self.check(self.folder / "build/consumer")
         self.assertIn("mesh a CAD model", run(moved / "bin/quadrille", "--help"))
         run(moved / "bin/quadrille", "mesh", ROOT / "examples/models/bracket.step", "-o", self.folder / "b.med", "--quiet")
+
+    def test_public_headers_are_what_the_two_include(self):
+        listed = re.search(r"set\(PUBLIC_HEADERS([^)]*)\)", (ROOT / "cmake/public_headers.cmake").read_text())[1].split()
+        found, left = set(), ["mesher/quadrille.hpp", "mesher/settings.hpp"]
+        while left:
+            header = left.pop()
+            if header not in found:
+                found.add(header)
+                left += re.findall(r'#include "([^"]+)"', (ROOT / header).read_text())
+        self.assertEqual(sorted(listed), sorted(found))
 
     def test_as_a_part_of_the_build(self):
         """Configured only: to build all of it again takes minutes."""
@@ -55,6 +70,8 @@ class Consumer(unittest.TestCase):
             "-G", "Ninja")
         commands = run("ninja", "-C", self.folder / "build", "-t", "commands", "consumer")
         self.assertIn(str(ROOT / "mesher/faces/loop_filling.cpp"), commands)
+        compiled = next(line for line in commands.splitlines() if "-c " in line and line.rstrip().endswith("consumer/main.cpp"))
+        self.assertNotIn(f"-I{ROOT} ", compiled, "geometry/ and mesher/ are not visible")
         self.assertIn("libquadrille_step.so", commands, "the modules are built with it")
         for other in ("_test.cpp", "bench", "module.cpp.o -c"):
             self.assertNotIn(f"{ROOT}/tests/{other}", commands)

@@ -2,8 +2,8 @@
 /// header.
 
 #include <iostream>
-
-#include "mesher/quadrille.hpp"
+#include <quadrille/quadrille.hpp>
+#include <quadrille/settings.hpp>
 
 int main(int argc, char** argv) try {
   const quadrille::CadModel model = quadrille::CadModel::read(argv[1]);

@@ -1,4 +1,4 @@
-/// Templates against all fillings, topology after edits, and meshes that stay valid with their boundary.
+/// Meshes that are cleaned up stay valid with their boundary.
 
 #include <gtest/gtest.h>
 
@@ -6,49 +6,27 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/improve.hpp"
-#include "mesher/quads/patch_templates.hpp"
-#include "mesher/quads/quad_topology.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/quad_grid.hpp"
 #include "tests/support/sample_quads.hpp"
 
 namespace quadrille {
 namespace {
 
-using SideSet = std::set<std::pair<int, int>>;
+using namespace testing;
 constexpr double straight = 1e-9;
-
-/// The sides with one element, as that element runs them.
-SideSet open_sides(const QuadMesh& mesh) {
-  SideSet sides;
-  const auto meet = [&](int a, int b) {
-    if (!sides.erase({b, a})) sides.insert({a, b});
-  };
-  for (const auto& q : mesh.quads)
-    for (int k = 0; k < 4; ++k) meet(q[k], q[(k + 1) & 3]);
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) meet(t[k], t[(k + 1) % 3]);
-  return sides;
-}
 
 double planar_area(const QuadMesh& mesh) {
   double sum = 0;
   for (const auto& q : mesh.quads)
     sum += 0.5 * (mesh.points[q[2]] - mesh.points[q[0]]).cross(mesh.points[q[3]] - mesh.points[q[1]]).z();
   return sum;
-}
-
-/// Points minus sides plus elements: no hole opened, none closed.
-int euler(const QuadMesh& mesh) {
-  const int open = static_cast<int>(open_sides(mesh).size());
-  const int sides = (4 * static_cast<int>(mesh.quads.size()) + open) / 2;
-  return static_cast<int>(mesh.points.size()) - sides + static_cast<int>(mesh.quads.size());
 }
 
 /// Quads turned away from the surface normals at their nodes.
@@ -62,24 +40,6 @@ int turned_over(const SurfaceMesh& mesh) {
   return count;
 }
 
-/// A grid of squares in the plane, its rim fixed.
-SurfaceMesh grid(int columns, int rows) {
-  SurfaceMesh mesh;
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) {
-      mesh.mesh.points.push_back({double(i), double(j), 0});
-      mesh.parameters.push_back({double(i), double(j)});
-      mesh.normals.push_back({0, 0, 1});
-      mesh.fixed.push_back(i == 0 || j == 0 || i == columns || j == rows);
-    }
-  for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const int a = j * (columns + 1) + i;
-      mesh.mesh.quads.push_back({a, a + 1, a + columns + 2, a + columns + 1});
-    }
-  return mesh;
-}
-
 ImproveReport clean(SurfaceMesh& mesh, const MeshSurface& surface = PlanarSurface()) {
   ImproveReport report;
   ExecutionContext context(1);
@@ -89,116 +49,6 @@ ImproveReport clean(SurfaceMesh& mesh, const MeshSurface& surface = PlanarSurfac
 
 double least_scaled_jacobian(const SurfaceMesh& mesh) {
   return quality(sample::shell(mesh)).sj_min;
-}
-
-TEST(PatchTemplates, CountsThoseWithoutNodesInside) {
-  // Ways to cut a 2 n-gon into quads: C(3 m, m) / (2 m + 1), m = n - 1.
-  for (const auto& [sides, ways] : {std::pair{4, 1}, {6, 3}, {8, 12}, {10, 55}}) {
-    const auto& all = patch_templates(sides);
-    EXPECT_EQ(std::count_if(all.begin(), all.end(), [](const PatchTemplate& t) { return t.interior == 0; }),
-              ways);
-  }
-  EXPECT_TRUE(patch_templates(5).empty());
-  EXPECT_TRUE(patch_templates(12).empty());
-}
-
-TEST(PatchTemplates, FillThePolygonOnceEach) {
-  for (int sides = 4; sides <= 10; sides += 2) {
-    std::set<std::set<std::array<int, 4>>> seen;
-    for (const PatchTemplate& filling : patch_templates(sides)) {
-      QuadMesh mesh;
-      mesh.points.resize(sides + filling.interior);
-      for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.points[i] = {double(i), double(i * i), 0};
-      std::set<std::array<int, 4>> quads;
-      for (int k = 0; k < filling.quads; ++k) {
-        std::array<int, 4> quad;
-        std::copy(filling.corners[k].begin(), filling.corners[k].end(), quad.begin());
-        mesh.quads.push_back(quad);
-        quads.insert(quad);
-      }
-      ASSERT_EQ(validate(mesh), std::vector<std::string>{});
-      EXPECT_EQ(euler(mesh), 1);
-      EXPECT_LE(*std::max_element(filling.uses.begin(), filling.uses.end()), PatchTemplate::max_uses);
-      SideSet rim;
-      for (int i = 0; i < sides; ++i) rim.insert({i, (i + 1) % sides});
-      EXPECT_EQ(open_sides(mesh), rim);
-      EXPECT_TRUE(seen.insert(quads).second);
-    }
-    EXPECT_FALSE(seen.empty());
-  }
-}
-
-/// All fillings within the limit, the cheapest first, of equals the one listed first.
-std::vector<const PatchTemplate*> fillings_by_cost(int sides, const FillingCosts& costs) {
-  std::vector<std::pair<double, const PatchTemplate*>> priced;
-  for (const PatchTemplate& filling : patch_templates(sides)) {
-    double sum = filling.interior_cost + costs.resize[filling.interior] + costs.drift[filling.interior];
-    for (int i = 0; i < sides; ++i) sum += costs.uses[i][filling.uses[i]];
-    if (sum <= costs.limit) priced.emplace_back(sum, &filling);
-  }
-  std::stable_sort(priced.begin(), priced.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const PatchTemplate*> result;
-  result.reserve(priced.size());
-  for (const auto& [cost, filling] : priced) result.push_back(filling);
-  return result;
-}
-
-TEST(PatchTemplates, CheapestAreThoseOfAllTried) {
-  std::mt19937 random(5);
-  // Whole numbers, so that many fillings cost the same.
-  const auto below = [&](unsigned n) { return static_cast<double>(random() % n); };
-  for (int round = 0; round < 4000; ++round) {
-    const int sides = 4 + 2 * (round % 4);
-    FillingCosts costs;
-    for (auto& node : costs.uses)
-      for (double& cost : node) cost = below(4);
-    for (double& cost : costs.resize) cost = 0.25 * below(4);
-    for (double& cost : costs.drift) cost = 0.125 * below(4) - 0.25;
-    costs.limit = below(20);
-    const std::vector<const PatchTemplate*> all = fillings_by_cost(sides, costs);
-    const CheapestFillings cheapest = cheapest_fillings(sides, costs);
-    ASSERT_EQ(cheapest.count, std::min<int>(static_cast<int>(all.size()), CheapestFillings::max_count));
-    for (int i = 0; i < cheapest.count; ++i) ASSERT_EQ(cheapest.fillings[i], all[i]) << "round " << round;
-  }
-  EXPECT_EQ(cheapest_fillings(5, {}).count, 0);
-}
-
-TEST(QuadTopology, FollowsFansRoundNodes) {
-  const SurfaceMesh mesh = grid(3, 3);
-  const QuadTopology topology(mesh.mesh.quads, {}, 16);
-  const QuadTopology::Fan inner = topology.fan(topology.side_of(5));
-  EXPECT_TRUE(inner.closed);
-  EXPECT_EQ(inner.quads, 4);
-  const QuadTopology::Fan rim = topology.fan(topology.side_of(1));
-  EXPECT_FALSE(rim.closed);
-  EXPECT_EQ(rim.quads, 2);
-  EXPECT_EQ(topology.twin(rim.first), -1);
-  EXPECT_EQ(topology.valence(topology.side_of(0)), 1);
-}
-
-TEST(QuadTopology, RefusesWhatWouldNotFit) {
-  const SurfaceMesh mesh = grid(3, 3);
-  QuadTopology topology(mesh.mesh.quads, {}, 16);
-  const std::array<int, 2> patch{0, 1};
-  using Quad = QuadTopology::Quad;
-  // Another outline; the same side twice; the wrong way round.
-  EXPECT_FALSE(topology.replace(patch, std::array<Quad, 1>{Quad{0, 1, 2, 6}}));
-  EXPECT_FALSE(topology.replace(patch, std::array<Quad, 2>{Quad{0, 1, 5, 4}, Quad{0, 1, 5, 4}}));
-  EXPECT_FALSE(topology.replace(patch, std::array<Quad, 2>{Quad{4, 5, 1, 0}, Quad{5, 6, 2, 1}}));
-  EXPECT_EQ(topology.quad(0), (Quad{0, 1, 5, 4}));
-  EXPECT_EQ(topology.quad(1), (Quad{1, 2, 6, 5}));
-  // The side between them turned.
-  EXPECT_TRUE(topology.replace(patch, std::array<Quad, 2>{Quad{0, 1, 2, 4}, Quad{4, 2, 6, 5}}));
-  EXPECT_EQ(topology.valence(topology.side_of(1)), 1);
-  EXPECT_EQ(topology.valence(topology.side_of(2)), 3);
-  EXPECT_EQ(topology.valence(topology.side_of(5)), 3);
-}
-
-TEST(QuadTopology, KeepsTagsApart) {
-  const SurfaceMesh mesh = grid(2, 1);
-  const QuadTopology topology(mesh.mesh.quads, {1, 2}, 6);
-  for (int side = 0; side < 8; ++side) EXPECT_EQ(topology.twin(side), -1);
 }
 
 class CleanUpSamples : public ::testing::Test {
