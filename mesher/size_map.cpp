@@ -82,6 +82,7 @@ SizingOptions without_sources(const SizingOptions& options, const SizeLimits& li
   none.size_min = limits.least;
   none.growth = options.growth;
   none.gradation = options.gradation;
+  none.aspect = options.aspect;
   none.budget = options.budget;
   none.elements_per_circle = 0;
   none.short_edges = false;

@@ -66,11 +66,11 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
 }
 
 /// The size requested on an edge itself and by its length.
-double SizeSources::cap_of(const CadEdge& edge) const {
+double SizeSources::cap_of(const CadEdge& edge, bool by_shape) const {
   double cap = limits_.largest;
   if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
     cap = it->second;
-  if (!options_.short_edges) return cap;
+  if (!options_.short_edges || !by_shape) return cap;
   // A short edge is one element, and the mesh around it is refined towards it.
   return std::min(cap, std::max(edge.length, limits_.size_min));
 }
@@ -81,7 +81,7 @@ void SizeSources::hold_segments() const {
   for (const EdgeId id : shape_.edges.ids()) {
     const CadEdge& edge = shape_.edges[id];
     if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
-    double cap = cap_of(edge);
+    double cap = cap_of(edge, true);
     const auto& layers = options_.layers.edges;
     if (const auto own = layers.find(edge.number); own != layers.end() && !unsized_.is_layered(id))
       cap = std::min(cap, own->second.first);
@@ -105,15 +105,15 @@ Error SizeSources::too_many_segments(const CadEdge& edge, double segments) const
                   edge.number, number_text(edge.length), segments / 1e6, options_.budget.segments / 1e6));
 }
 
-void SizeSources::edge(EdgeId id, const Sink& sink) const {
+void SizeSources::edge(EdgeId id, bool by_shape, const Sink& sink) const {
   context_.check();
   const CadEdge& edge = shape_.edges[id];
   if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
   if (prescribed_[id] && !unsized_.is_divided(id)) prescribed_edge(edge, *prescribed_[id], sink);
   if (unsized_.edge(id) && !options_.edge_sizes.contains(edge.number)) return;
   const EdgeCurve curve(edge);
-  double cap = cap_of(edge);
-  if (curve.straight()) {
+  double cap = cap_of(edge, by_shape);
+  if (curve.straight() || !by_shape) {
     if (cap < limits_.largest || !spatial_.empty()) sample_edge(curve, edge, cap, false, sink);
     return;
   }
@@ -180,7 +180,8 @@ void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first
 void SizeSources::face(FaceId id, const Sink& sink) const {
   const CadFace& face = shape_.faces[id];
   if (unsized_.face(id) && !options_.face_sizes.contains(id.number())) return;
-  if (options_.proximity > 0 || options_.short_edges) gaps(id, sink);
+  const bool gridded = unsized_.is_gridded(id);
+  if (options_.proximity > 0 || (options_.short_edges && !gridded)) gaps(id, sink);
   if (rays_) walls(id, sink);
   const FaceSurface surface(face);
   double cap = limits_.largest;
@@ -193,7 +194,10 @@ void SizeSources::face(FaceId id, const Sink& sink) const {
   const auto sample = [&](const Vector2& middle, const Vector2& part) {
     check();
     const SurfacePoint at = surface.evaluate(middle);
-    double size = curved ? std::min(cap, size_of(surface.max_curvature(middle))) : cap, hint = size;
+    double size = cap;
+    if (curved)
+      size = std::min(size, (gridded ? options_.aspect : 1) * size_of(surface.max_curvature(middle)));
+    double hint = size;
     if (!spatial_.empty()) {
       hint = std::min(size, spatial_.hint(at.point));
       size = std::min(size, spatial_.at(at.point));

@@ -28,8 +28,8 @@ class SizeSources {
   /// Throws Error (usage) if the sizes requested on edges alone exceed the budget of segments or of blocks.
   void hold_segments() const;
 
-  /// What an edge requests by its length, its curvature and its own size.
-  void edge(EdgeId id, const Sink& sink) const;
+  /// What an edge requests by its own size and, with `by_shape`, by its length and its curvature.
+  void edge(EdgeId id, bool by_shape, const Sink& sink) const;
   /// What a face requests inside.
   void face(FaceId id, const Sink& sink) const;
 
@@ -52,7 +52,7 @@ class SizeSources {
   void gaps(FaceId id, const Sink& sink) const;
   void walls(FaceId id, const Sink& sink) const;
   double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
-  double cap_of(const CadEdge& edge) const;
+  double cap_of(const CadEdge& edge, bool by_shape) const;
   Error too_many_segments(const CadEdge& edge, double segments) const;
   void prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed, const Sink& sink) const;
   void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,

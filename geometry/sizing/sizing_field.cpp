@@ -25,6 +25,7 @@
 #include "geometry/sizing/size_sources.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
 #include "geometry/sizing/surface_gradation.hpp"
+#include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {
 
@@ -39,6 +40,9 @@ class SizingField::Impl {
  public:
   CascadeFrame frame;
   double size_min = 0;
+  SizingOptions options;
+  SizeLimits limits{};
+  FaceFlags gridded;  // see UnsizedFeatures
   Budget budget;
   FaceCascades cascades;  // one per face, or one for all
   bool on_surface = false;
@@ -130,9 +134,14 @@ class Builder {
   }
 
   void add_edge(EdgeId edge) {
-    Batch batch(*this, field_.cascades_of(shape_.edges[edge].faces));
-    sources_.edge(edge, [&](const Vector3& p, double size) { batch.add(p, size); });
-    batch.pass_on();
+    std::vector<FaceId> free, gridded;
+    for (const FaceId face : shape_.edges[edge].faces)
+      (unsized_.is_gridded(face) ? gridded : free).push_back(face);
+    for (const bool by_shape : {true, false}) {
+      Batch batch(*this, field_.cascades_of(by_shape ? free : gridded));
+      sources_.edge(edge, by_shape, [&](const Vector3& p, double size) { batch.add(p, size); });
+      batch.pass_on();
+    }
   }
 
   std::set<int> cascades_of_vertex(VertexId vertex) const {
@@ -294,6 +303,9 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
   impl->frame = frame_of(model, options, limits);
   impl->size_min = limits.least;
   impl->budget = options.budget;
+  impl->options = options;
+  impl->limits = limits;
+  impl->gridded = unsized.gridded;
   SizingOptions steady = options;
   steady.growth = impl->frame.growth;
   Builder(model, steady, limits, unsized, *impl, context).run();
@@ -397,6 +409,11 @@ const Budget& SizingField::budget() const {
 const Budget& SizingField::Sampler::budget() const {
   return impl_.budget;
 }
+
+double SizingField::aspect() const {
+  return impl_->options.aspect;
+}
+
 double SizingField::size_max() const {
   return impl_->frame.size_max;
 }
@@ -438,6 +455,7 @@ SizingField::Sampler::Sampler(const SizingField& field)
 SizingField::Sampler::Sampler(const SizingField& field, FaceId face)
     : lookups_(std::make_unique<Lookups>()), impl_(*field.impl_) {
   lookups_->all.emplace_back(*impl_.cascades[impl_.cascade_of(face)]);
+  directed_ = !impl_.gridded.empty() && impl_.gridded[face] != 0;
 }
 
 SizingField::Sampler::Sampler(const SizingField& field, const CadEdge& edge)
@@ -452,6 +470,18 @@ double SizingField::Sampler::operator()(const Vector3& point) {
   double size = impl_.frame.size_max;
   for (SizeCascade::Lookup& lookup : lookups_->all) size = std::min(size, lookup(point));
   return std::clamp(size, impl_.size_min, impl_.frame.size_max);
+}
+
+double SizingField::Sampler::along(const Vector3& point, double curvature) {
+  return std::min((*this)(point), size_of_curvature(impl_.options, impl_.limits, curvature));
+}
+
+double SizingField::Sampler::across(const Vector3& point, double curvature) {
+  return directed_ ? along(point, curvature) : (*this)(point);
+}
+
+double SizingField::Sampler::across(const Vector3& point, const FaceSurface& surface, const Vector2& uv) {
+  return directed_ && !surface.planar() ? along(point, surface.max_curvature(uv)) : (*this)(point);
 }
 
 }  // namespace quadrille

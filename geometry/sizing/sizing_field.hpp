@@ -15,6 +15,7 @@
 namespace quadrille {
 
 struct CadEdge;
+class FaceSurface;
 
 /// The range of sizes of a field.
 struct SizeLimits {
@@ -37,6 +38,7 @@ struct UnsizedFeatures {
   FaceFlags faces;    ///< 1 = the face
   EdgeFlags divided;  ///< 1 = its prescribed division requests no sizes
   EdgeFlags layered;  ///< 1 = its layers request no sizes
+  FaceFlags gridded;  ///< 1 = rows of quads run from side to side: sizes have directions there
   /// Whether an edge requests no sizes.
   bool edge(EdgeId id) const { return !edges.empty() && edges[id] != 0; }
   /// Whether the prescribed division of an edge requests no sizes.
@@ -45,6 +47,8 @@ struct UnsizedFeatures {
   bool is_layered(EdgeId id) const { return !layered.empty() && layered[id] != 0; }
   /// Whether a face requests no sizes.
   bool face(FaceId id) const { return !faces.empty() && faces[id] != 0; }
+  /// Whether rows of quads run from side to side of a face.
+  bool is_gridded(FaceId id) const { return !gridded.empty() && gridded[id] != 0; }
 };
 
 /// The width of the voxels that hold a size in a field whose largest is `size_max`.
@@ -62,6 +66,11 @@ struct CascadeFrame;
 CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const SizeLimits& limits);
 
 /// h(x): the largest size below every source that satisfies the gradation |grad h| <= growth.
+///
+/// Where rows of quads run over a face from side to side (UnsizedFeatures::gridded), sizes have directions:
+/// curvature requests its size in the direction of the bend, and SizingOptions::aspect times that in the
+/// field; edges request their lengths and curvatures in their own direction alone; narrowness requests
+/// nothing. h(x) holds what applies in all directions, Sampler::along() and Sampler::across() add the rest.
 ///
 /// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes requested on
 /// faces, edges and vertices, gaps inside faces, walls, regions, points, layers, and an external grid. They
@@ -81,6 +90,7 @@ class SizingField {
   /// version. Where faces have their own cascades, the smallest value of all is written.
   void write(const std::filesystem::path& path) const;
 
+  double aspect() const;    ///< SizingOptions::aspect
   double size_max() const;  ///< millimeters
   double size_min() const;  ///< millimeters
 
@@ -109,12 +119,20 @@ class SizingField {
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
     double operator()(const Vector3& point);  ///< wanted size, millimeters
-    const Budget& budget() const;             ///< the field's budget
+    /// On an edge: the wanted size in its direction, given its curvature (1 / length).
+    double along(const Vector3& point, double curvature);
+    /// On a face: the wanted size in the direction in which it bends most, given that curvature.
+    double across(const Vector3& point, double curvature);
+    /// The same at a point of the surface with these parameters.
+    double across(const Vector3& point, const FaceSurface& surface, const Vector2& uv);
+    bool is_directed() const { return directed_; }  ///< whether sizes have directions on the face
+    const Budget& budget() const;                   ///< the field's budget
 
    private:
     struct Lookups;
     std::unique_ptr<Lookups> lookups_;
     const Impl& impl_;
+    bool directed_ = false;  // the face has sizes with directions
   };
 
   const Budget& budget() const;  ///< what the field was built with

@@ -101,10 +101,12 @@ struct SizingOptions {
   double size_min = 0;                ///< lower limit of sizes, unless users request less; 0 = size / 8
   double elements_per_circle = 12;    ///< elements per 2 pi of curvature; 0 = curvature is ignored
   ChordError chord_error;             ///< applies in addition to elements_per_circle
-  bool short_edges = true;            ///< edges and parts of faces that are small request small sizes
-  double proximity = 0;               ///< elements across a gap inside a face; 0 = any number
-  double proximity_walls = 0;         ///< elements through the thickness of a wall; 0 = any number
-  double growth = 0.3;                ///< gradation: largest |grad size|
+  /// largest length over width of quads where sizes have directions: in rows over bends, fillets and strips
+  double aspect = 4;
+  bool short_edges = true;                   ///< edges and parts of faces that are small request small sizes
+  double proximity = 0;                      ///< elements across a gap inside a face; 0 = any number
+  double proximity_walls = 0;                ///< elements through the thickness of a wall; 0 = any number
+  double growth = 0.3;                       ///< gradation: largest |grad size|
   Gradation gradation = Gradation::surface;  ///< how sizes grow
   std::map<int, double> face_sizes;          ///< CAD face -> size on it
   std::map<int, double> edge_sizes;          ///< CAD edge -> size on it

@@ -287,7 +287,7 @@ void run(const MeshArguments& arguments) {
   std::optional<SizeFidelity> sizes;
   if (!arguments.report.empty())
     options.inspect = [&](const ShellMesh& made, const SizingField& field) {
-      sizes = size_fidelity(made, field);
+      sizes = size_fidelity(made, field, model.shape());
     };
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();

@@ -13,8 +13,12 @@ namespace {
 
 class EdgeTabulator {
  public:
-  EdgeTabulator(const CadEdge& edge, SizingField::Sampler& size_at)
-      : edge_(edge), curve_(edge), size_at_(size_at), uniform_(curve_.straight() || curve_.circular()) {
+  EdgeTabulator(const CadEdge& edge, bool by_shape, SizingField::Sampler& size_at)
+      : edge_(edge),
+        curve_(edge),
+        size_at_(size_at),
+        uniform_(curve_.straight() || curve_.circular()),
+        bends_(by_shape && !curve_.straight()) {
     const int intervals = std::max(uniform_ ? 4 : 8, 2 * curve_.spans());
     add(edge.first, curve_.point(edge.first), 0);
     for (int i = 1; i <= intervals; ++i) {
@@ -28,7 +32,7 @@ class EdgeTabulator {
   void split(double t, const Vector3& p, int depth) {
     const double chord = (p - point_).norm();
     constexpr int max_depth = 40;  // steep changes of the size are resolved long before
-    if (depth < max_depth && chord > 0.5 * std::min(size_, size_at_(p))) {
+    if (depth < max_depth && chord > 0.5 * std::min(size_, size_at(t, p))) {
       const double middle = 0.5 * (table.parameters.back() + t);
       split(middle, curve_.point(middle), depth + 1);
       split(t, p, depth + 1);
@@ -37,8 +41,12 @@ class EdgeTabulator {
     add(t, p, arc(table.parameters.back(), t, chord));
   }
 
+  double size_at(double t, const Vector3& p) {
+    return bends_ ? size_at_.along(p, curve_.curvature(t)) : size_at_(p);
+  }
+
   void add(double t, const Vector3& p, double length) {
-    const double size = size_at_(p);
+    const double size = size_at(t, p);
     const Vector3 direction = curve_.derivative(t);
     if (table.parameters.empty()) {
       table.counts.push_back(0);
@@ -66,7 +74,7 @@ class EdgeTabulator {
   const CadEdge& edge_;
   EdgeCurve curve_;
   SizingField::Sampler& size_at_;
-  bool uniform_;
+  bool uniform_, bends_;
   Vector3 point_, direction_;
   double size_ = 0;
 };
@@ -118,8 +126,8 @@ void CountTable::raise_to(double density) {
   }
 }
 
-CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at) {
-  return EdgeTabulator(edge, size_at).table;
+CountTable tabulate(const CadEdge& edge, bool by_shape, SizingField::Sampler& size_at) {
+  return EdgeTabulator(edge, by_shape, size_at).table;
 }
 
 }  // namespace quadrille

@@ -56,6 +56,7 @@ void hold_segments(double segments, const Budget& budget, const CadEdge& edge);
 
 /// Tabulates an edge by its arc length and the sizing field. The samples are at most half the local size
 /// apart. Throws Error (usage) if the edge takes more segments than the field's budget allows.
-CountTable tabulate(const CadEdge& edge, SizingField::Sampler& size_at);
+/// \param by_shape whether its curvature requests sizes along it
+CountTable tabulate(const CadEdge& edge, bool by_shape, SizingField::Sampler& size_at);
 
 }  // namespace quadrille

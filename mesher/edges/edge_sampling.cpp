@@ -125,15 +125,15 @@ class EdgeSampler {
     FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, targets_.wanted);
     free_sides_beside_chains(found);
     FaceOutlines sides = found;
-    EdgeCounts chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
-    const bool refined = refine_along_strips(shape_, sides, chosen, tables_, targets_);
-    if (fit_holes_to_grids(shape_, sides, chosen, tables_, targets_) || refined) {
+    EdgeCounts chosen = choose(sides);
+    constexpr int most_rounds = 3;
+    for (int round = 0; round < most_rounds; ++round) {
+      const bool refined = refine_along_strips(shape_, sides, chosen, result_, shares_, field_.aspect(),
+                                               field_.size_min(), tables_, targets_);
+      if (!(round == 0 && fit_holes_to_grids(shape_, sides, chosen, tables_, targets_)) && !refined) break;
       sides = found;
-      chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
+      chosen = choose(sides);
     }
-    counts_ = chosen.counts;
-    shares_ = space_chords(shape_, sides, chosen.chords, tables_, counts_, prescribed_shares());
-    keep_spacing(chosen.chords);
     place_vertices();
     context_.check();
     SparseCheck check(context_, 64);
@@ -149,11 +149,22 @@ class EdgeSampler {
   }
 
  private:
+  /// Chooses the counts, and where nodes lie on the edges.
+  EdgeCounts choose(FaceOutlines& sides) {
+    EdgeCounts chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
+    counts_ = chosen.counts;
+    shares_ = space_chords(shape_, sides, chosen.chords, tables_, counts_, prescribed_shares());
+    keep_spacing(chosen.chords);
+    return chosen;
+  }
+
   void tabulate_edges() {
     const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
     const EdgeFlags inner = find_inner_edges(shape_);
     tables_.resize(n_);
     targets_.stride = result_.stride;
+    targets_.check = [this] { context_.check(); };
+    targets_.check = [this] { context_.check(); };
     targets_.least.assign(n_, 0);
     targets_.least_of_grids.assign(n_, 0);
     targets_.wanted.assign(n_, 0);
@@ -271,7 +282,7 @@ class EdgeSampler {
   CountTable table_of(EdgeId id) {
     const auto make = [&] {
       SizingField::Sampler sampler(field_, shape_.edges[id]);
-      return tabulate(shape_.edges[id], sampler);
+      return tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
     };
     if (known_ == nullptr) return make();
     known_->resize(n_);

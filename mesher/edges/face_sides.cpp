@@ -118,7 +118,9 @@ class SideFinder {
     if (corners->size() != 4) return;
     std::array<FaceSide, 4> four;
     for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
-    for (int c = 0; c < 2; ++c) add_pairs(four[c], turned(four[c + 2]), sides);
+    add_pairs(four[0], turned(four[2]), sides);
+    sides.across = sides.facing.size();
+    add_pairs(four[1], turned(four[3]), sides);
   }
 
   /// A side of a stepped outline as an axis-parallel line.

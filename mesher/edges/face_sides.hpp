@@ -39,6 +39,8 @@ struct FaceSides {
   /// Pairs of sides whose counts must be equal. In a stepped outline, one side of a pair may join several
   /// sides of the face.
   std::vector<FacingPair> facing;
+  /// (four) index of the first pair whose sides run across those of the first one
+  std::size_t across = 0;
   std::vector<EdgeId> rest;  ///< edges whose counts must have an even sum
   int outer = 0;             ///< index of the wire with the corners
   /// (four, odd, stepped, holed) index of the first coedge of each side in that wire

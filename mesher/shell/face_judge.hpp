@@ -30,8 +30,9 @@ struct FaceThresholds {
 /// Judges meshes of one face.
 class FaceJudge {
  public:
-  FaceJudge(const SizingField& field, FaceId face, const ExecutionContext& context)
-      : size_at_(field, face), context_(context) {}
+  FaceJudge(const SizingField& field, FaceId face, const FaceSurface& surface,
+            const ExecutionContext& context)
+      : size_at_(field, face), surface_(surface), context_(context) {}
 
   /// Whether other meshes than this grid are worth trying.
   bool is_doubtful(const FaceMesh& grid, const FacePlan& plan);
@@ -48,6 +49,7 @@ class FaceJudge {
 
   static constexpr FaceThresholds thresholds{};
   SizingField::Sampler size_at_;
+  const FaceSurface& surface_;
   const ExecutionContext& context_;
   double outside_ = 0;  // of the grid, as far as it counts
   bool wasteful_ = false, stepped_ = false;

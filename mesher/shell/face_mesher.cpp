@@ -59,7 +59,7 @@ class FaceMesher {
         chart_(chart),
         surface_(*chart.surface),
         size_at_(field, face),
-        judge_(field, face, context),
+        judge_(field, face, surface_, context),
         plan_(nodes.plans[face]) {}
 
   FaceMesh run() {

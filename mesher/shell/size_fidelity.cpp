@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "geometry/base/side_key.hpp"
+#include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {
 
@@ -64,7 +65,42 @@ nlohmann::ordered_json SizeFidelity::json() const {
           {"histogram", bars}};
 }
 
-SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
+namespace {
+
+/// What the sizes request for the sides of the quads of one face.
+class WantedSides {
+ public:
+  WantedSides(const SizingField& field, const CadFace& face, FaceId id)
+      : size_at_(field, id),
+        surface_(face),
+        uv_(0.5 * Vector2(face.u_min + face.u_max, face.v_min + face.v_max)) {}
+
+  /// \param corners of a quad. \return for each side. Where sizes have directions, rows run across the bend:
+  /// the shorter sides follow its curvature.
+  std::array<double, 4> operator()(const std::array<Vector3, 4>& corners) {
+    std::array<double, 4> sizes;
+    for (int k = 0; k < 4; ++k) sizes[k] = size_at_(0.5 * (corners[k] + corners[(k + 1) % 4]));
+    if (!size_at_.is_directed() || surface_.planar()) return sizes;
+    const Vector3 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    surface_.project(uv_, middle);
+    const double across = size_at_.across(middle, surface_, uv_);
+    const auto length = [&](int k) {
+      return (corners[k + 1] - corners[k]).norm() + (corners[(k + 3) % 4] - corners[k + 2]).norm();
+    };
+    const int first = length(0) < length(1) ? 0 : 1;
+    for (const int k : {first, first + 2}) sizes[k] = std::min(sizes[k], across);
+    return sizes;
+  }
+
+ private:
+  SizingField::Sampler size_at_;
+  FaceSurface surface_;
+  Vector2 uv_;
+};
+
+}  // namespace
+
+SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field, const CadShape& shape) {
   // The two quads of a face on a side run along it in opposite directions: the one with a < b counts it. On
   // segments, where faces meet, the first quad counts it.
   std::vector<char> on_rim(mesh.points.size(), 0);
@@ -83,17 +119,19 @@ SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field) {
   std::vector<std::array<double, 4>> by_quad(mesh.quads.size());
   const oneapi::tbb::blocked_range<std::size_t> all(0, mesh.quads.size());
   oneapi::tbb::parallel_for(all, [&](const auto& range) {
-    std::optional<SizingField::Sampler> size_at;
+    std::optional<WantedSides> wanted;
     for (std::size_t quad = range.begin(); quad < range.end(); ++quad) {
       const int face = mesh.quad_faces[quad];
       if (quad == range.begin() || face != mesh.quad_faces[quad - 1])
-        size_at.emplace(field, FaceId::from_number(face));
+        wanted.emplace(field, shape.faces[FaceId::from_number(face)], FaceId::from_number(face));
+      std::array<Vector3, 4> corners;
+      for (int k = 0; k < 4; ++k) corners[k] = mesh.points[mesh.quads[quad][k]];
+      const std::array<double, 4> sizes = (*wanted)(corners);
       for (int k = 0; k < 4; ++k) {
         const int a = mesh.quads[quad][k], b = mesh.quads[quad][(k + 1) % 4];
         const auto rim = rim_side(a, b);
         const bool counts = rim == first.end() ? a < b : rim->second == quad;
-        const Vector3 &p = mesh.points[a], &q = mesh.points[b];
-        by_quad[quad][k] = counts ? (q - p).norm() / (*size_at)(0.5 * (p + q)) : -1;
+        by_quad[quad][k] = counts ? (corners[(k + 1) % 4] - corners[k]).norm() / sizes[k] : -1;
       }
     }
   });

@@ -26,9 +26,10 @@ struct SizeFidelity {
   nlohmann::ordered_json json() const;
 };
 
-/// Measures each side once. \param field sizing field that the mesh was made with, see MeshOptions::inspect.
-/// Time: linear in the sides, with one lookup in the field for each.
-SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field);
+/// Measures each side once, in its direction where sizes have one. \param field sizing field that the mesh
+/// was made with, see MeshOptions::inspect \param shape of the model Time: linear in the sides, with one
+/// lookup in the field for each.
+SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field, const CadShape& shape);
 
 /// The quads, ascending, with a side under half of ShellMesh::size_min where sizes below it are wanted, as
 /// beside edges and faces that users give smaller sizes, segments or layers. One lookup for each.

@@ -98,16 +98,20 @@ Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
   return result;
 }
 
+/// The outlines of the faces, before sizes are known.
+FaceOutlines find_outlines(const Prepared& prepared, const TinyFeatures& tiny) {
+  IdVector<EdgeId, double> wanted;
+  for (const CadEdge& edge : prepared.shape.edges)
+    wanted.push_back(edge.length / (prepared.limits.largest * stride(prepared.options.strategy)));
+  return find_face_sides(prepared.shape, prepared.meshed, tiny, wanted);
+}
+
 /// Finds the rows for prescribed divisions and layers: in grids if possible, else along lines of edges.
-GridRows find_rows(const Prepared& prepared, SamplingPlan& plan) {
+GridRows find_rows(const Prepared& prepared, const FaceOutlines& sides, SamplingPlan& plan) {
   const CadShape& shape = prepared.shape;
   const SizingOptions& sizing = prepared.options.sizing;
   const double size = prepared.limits.largest;
   if (sizing.spacings.empty() && sizing.layers.edges.empty()) return {};
-  IdVector<EdgeId, double> wanted;
-  for (const CadEdge& edge : shape.edges)
-    wanted.push_back(edge.length / (size * stride(prepared.options.strategy)));
-  const auto sides = find_face_sides(shape, prepared.meshed, plan.tiny, wanted);
   GridRows rows = find_grid_rows(shape, sides, std::move(plan.prescribed), sizing, size);
   plan.prescribed = rows.prescribed;
   plan.rows = find_row_lines(shape, sides, prepared.meshed, plan.tiny, plan.prescribed, sizing.layers);
@@ -138,7 +142,11 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
   plan.matched = matches.edges;
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
   meshed = leave_out_tiny(suppressed, FaceFlags(shape.faces.size()), plan);
-  rows = find_rows(*this, plan);
+  const FaceOutlines outlines = find_outlines(*this, plan.tiny);
+  rows = find_rows(*this, outlines, plan);
+  gridded.resize(shape.faces.size());
+  for (const FaceId face : gridded.ids())
+    gridded[face] = options.sizing.aspect > 1 && outlines[face].has_whole_rows();
 }
 
 FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips,
@@ -165,7 +173,7 @@ SizingField sizes_for(const Prepared& prepared, ExecutionContext& context) {
   const ElementBudget budget(prepared.model, sizing, prepared.asked, context);
   SizingField field = SizingField::build(prepared.model, sizing, context,
                                          {prepared.suppressed.edges(), prepared.plan.tiny.merged_faces,
-                                          prepared.rows.divided, prepared.rows.layered});
+                                          prepared.rows.divided, prepared.rows.layered, prepared.gridded});
   budget.check(field);
   return field;
 }

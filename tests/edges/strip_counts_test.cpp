@@ -4,14 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <GC_MakeArcOfCircle.hxx>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/sheet.hpp"
 
 namespace quadrille {
 namespace {
@@ -34,16 +40,63 @@ TEST(StripCounts, KeepsTheQuadsOfAThinRimWithinTheLimits) {
   }
 }
 
-/// Quads between the two large faces.
-int quads_of_rim(const ShellMesh& mesh) {
-  return static_cast<int>(std::count_if(mesh.quads.begin(), mesh.quads.end(), [&](const auto& quad) {
-    return std::abs(mesh.points[quad[0]].z() - mesh.points[quad[2]].z()) > 1e-6;
-  }));
+/// A sheet with a bend of 90 degrees between two flanges, `length` long.
+CadModel bent_sheet(double radius, double flange, double length) {
+  const double c = radius * (1 - std::sqrt(0.5));
+  BRepBuilderAPI_MakeWire profile;
+  profile.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, radius + flange), gp_Pnt(0, 0, radius)));
+  profile.Add(BRepBuilderAPI_MakeEdge(
+      GC_MakeArcOfCircle(gp_Pnt(0, 0, radius), gp_Pnt(c, 0, c), gp_Pnt(radius, 0, 0)).Value()));
+  profile.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(radius, 0, 0), gp_Pnt(radius + flange, 0, 0)));
+  return CadModel(std::make_shared<CadShape>(
+      BRepPrimAPI_MakePrism(profile.Wire(), gp_Vec(0, length, 0)).Shape(), "sheet"));
 }
 
-/// Below half the least size (5 / 8), rims are as coarse as the size asks for.
-TEST(StripCounts, GivesUpWhereItWouldTakeFarMore) {
-  EXPECT_GT(quads_of_rim(mesh_of_plate(0.5, 5)), quads_of_rim(mesh_of_plate(0.3, 5)));
+double largest_aspect(const ShellMesh& mesh) {
+  double largest = 0;
+  for (const auto& quad : mesh.quads) {
+    std::array<double, 4> sides{};
+    for (int k = 0; k < 4; ++k) sides[k] = (mesh.points[quad[(k + 1) % 4]] - mesh.points[quad[k]]).norm();
+    const auto [low, high] = std::minmax_element(sides.begin(), sides.end());
+    largest = std::max(largest, *high / *low);
+  }
+  return largest;
+}
+
+/// A bend has the rows that its curvature asks for, and quads as long as the size: the sheet has about as
+/// many quads as its area over the square of the size. With an aspect of 1 the bend takes squares of its own.
+TEST(StripCounts, BendsHaveRowsOfLongQuads) {
+  constexpr double radius = 5.5, flange = 60, length = 200, size = 8;
+  const CadModel sheet = bent_sheet(radius, flange, length);
+  const double area = length * (2 * flange + 0.5 * M_PI * radius);
+  MeshOptions options;
+  options.sizing.size = size;
+  ExecutionContext context(1);
+  const ShellMesh mesh = quadrille::mesh(sheet, options, context);
+  EXPECT_EQ(validate(mesh, false), std::vector<std::string>{});
+  EXPECT_LT(mesh.quads.size(), 1.3 * area / (size * size));
+  EXPECT_LE(largest_aspect(mesh), 5);
+  const auto in_bend = std::count_if(mesh.quads.begin(), mesh.quads.end(), [&](const auto& quad) {
+    return (mesh.points[quad[0]] + mesh.points[quad[2]]).x() < 2 * radius - 1e-6 &&
+           (mesh.points[quad[0]] + mesh.points[quad[2]]).z() < 2 * radius - 1e-6;
+  });
+  EXPECT_EQ(in_bend % 25, 0);  // rows over the whole length
+  EXPECT_GE(in_bend, 3 * 25);  // a quarter of the twelve elements on a circle
+  options.sizing.aspect = 1;
+  EXPECT_GT(quadrille::mesh(sheet, options, context).quads.size(), 1.5 * area / (size * size));
+}
+
+/// However narrow a strip is, as long as it is not below the reach.
+TEST(StripCounts, NoQuadOfAStripIsTooLong) {
+  for (const double width : {0.6, 0.8, 1.3, 2.1, 3.4, 5.5}) {
+    const CadModel sheet =
+        testing::sheet({{{0, 0}, {60, 0}, {60, width}, {0, width}}, {{0, 0}, {60, 0}, {60, -30}, {0, -30}}});
+    MeshOptions options;
+    options.sizing.size = 5;
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(sheet, options, context);
+    EXPECT_LE(largest_aspect(mesh), 5) << width;
+  }
 }
 
 TEST(StripCounts, RaisesATableWhereItIsLow) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/surfaces/face_surface.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/sheet.hpp"
 
@@ -17,6 +18,7 @@ FaceMesh grid(int columns, int rows, double shear = 0) {
     for (int i = 0; i <= columns; ++i) {
       const double x = 20.0 * i / columns, y = 20.0 * j / rows;
       mesh.points.push_back({x + shear * y, y, 0});
+      mesh.uv.push_back({x, y});
     }
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
@@ -38,7 +40,8 @@ class FaceJudgeTest : public ::testing::Test {
   const CadModel model_ = testing::sheet({{{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
   ExecutionContext context_{1};
   const SizingField field_ = SizingField::build(model_, sizes_of_one(), context_);
-  FaceJudge judge_{field_, face_id(1), context_};
+  const FaceSurface surface_{model_.shape().faces[face_id(1)]};
+  FaceJudge judge_{field_, face_id(1), surface_, context_};
 };
 
 TEST_F(FaceJudgeTest, KeepsGoodGridsOfTheRightSize) {

@@ -21,12 +21,14 @@ TEST(SizeFidelity, CountsEachSideOnceAgainstTheSizeThere) {
   options.sizing.size = 1;  // which divides all sides
   ExecutionContext context;
   const ShellMesh mesh = quadrille::mesh(box, options, context);
-  const SizeFidelity exact = size_fidelity(mesh, SizingField::build(box, options.sizing, context));
+  const SizeFidelity exact =
+      size_fidelity(mesh, SizingField::build(box, options.sizing, context), box.shape());
   EXPECT_EQ(exact.sides, static_cast<int>(2 * mesh.quads.size()));  // of a closed mesh
   EXPECT_NEAR(exact.median, 1, 1e-6);
   EXPECT_DOUBLE_EQ(exact.within_percent, 100);
   options.sizing.size = 4;  // of another mesh
-  const SizeFidelity fine = size_fidelity(mesh, SizingField::build(box, options.sizing, context));
+  const SizeFidelity fine =
+      size_fidelity(mesh, SizingField::build(box, options.sizing, context), box.shape());
   EXPECT_NEAR(fine.median, 0.25, 1e-6);
   EXPECT_DOUBLE_EQ(fine.within_percent, 0);
   const auto json = fine.json();
@@ -44,7 +46,7 @@ TEST(SizeFidelity, GradedMeshesKeepTheirSizes) {
   ExecutionContext context;
   SizeFidelity found;
   options.inspect = [&](const ShellMesh& mesh, const SizingField& field) {
-    found = size_fidelity(mesh, field);
+    found = size_fidelity(mesh, field, bracket.shape());
   };
   quadrille::mesh(bracket, options, context);
   EXPECT_NEAR(found.median, 1, 0.15);
@@ -59,7 +61,7 @@ TEST(SizeFidelity, FineEdgesDoNotMakeWholeGridsFine) {
   ExecutionContext context;
   SizeFidelity found;
   options.inspect = [&](const ShellMesh& mesh, const SizingField& field) {
-    found = size_fidelity(mesh, field);
+    found = size_fidelity(mesh, field, box.shape());
   };
   const ShellMesh mesh = quadrille::mesh(box, options, context);
   EXPECT_LT(mesh.quads.size(), 3000u);  // grids between such edges have 8800, four parts of larger quads 3692

@@ -112,6 +112,7 @@ def mesh(
     elements_per_diagonal: Optional[float] = None,
     size_min: Optional[float] = None,
     elements_per_circle: Optional[float] = None,
+    aspect: Optional[float] = None,
     growth: Optional[float] = None,
     gradation: Optional[str] = None,
     chord_error: Optional[str] = None,
