@@ -24,6 +24,8 @@ namespace quadrille {
 namespace {
 
 constexpr double largest_ratio = 2;  // between wanted counts of the sides of a pair, or edges of a chord
+/// The same between sides of several edges, which leave the other edges on them no choice.
+constexpr double largest_ratio_of_sums = 1.3;
 constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 class CountChooser {
@@ -94,7 +96,11 @@ class CountChooser {
 
   bool is_far_off(const FacingPair& pair) const {
     const auto [low, high] = std::minmax({sum_of(pair.first), sum_of(pair.second)});
-    return high > (has_fixed(pair) ? largest_fixed_ratio : largest_ratio) * low;
+    const bool is_sum = pair.first.size() + pair.second.size() > 2;
+    return high > (has_fixed(pair) ? largest_fixed_ratio
+                   : is_sum        ? largest_ratio_of_sums
+                                   : largest_ratio) *
+                      low;
   }
 
   /// Merges two chords, unless users prescribe different numbers for them.
@@ -148,16 +154,30 @@ class CountChooser {
       };
       const std::string edges = chords_.of(chord) == chord ? fixed_edges(is_here) : "";
       if (edges.empty()) continue;
-      const int fixed = fixed_[chord], less = fixed - units_[chord], more = fixed + units_[chord];
-      fixed_[chord] = more;
+      const int fixed = fixed_[chord];
+      fixed_[chord] = fixed + units_[chord];
       const std::vector<FaceId> left = make_faces_even();
       fixed_[chord] = fixed;
       if (left.size() >= odd || std::find(left.begin(), left.end(), face) != left.end()) continue;
-      ways.push_back(less > 0 ? fmt::format("{} or {} on {}", less, more, edges)
-                              : fmt::format("{} on {}", more, edges));
+      const int all = segments_of_whole(is_here), less = all - units_[chord], more = all + units_[chord];
+      const std::string way =
+          less > 0 ? fmt::format("{} or {} on {}", less, more, edges) : fmt::format("{} on {}", more, edges);
+      // Several pieces of an edge give the same.
+      if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
     }
     if (ways.empty()) return "change the numbers on two or more of " + names;
     return fmt::format("use {}", fmt::join(ways, ", or "));
+  }
+
+  /// The number that users prescribe for the first of the edges included, with all its pieces.
+  template <class Includes>
+  int segments_of_whole(Includes&& includes) const {
+    const auto ids = targets_.fixed.ids();
+    const auto first = std::find_if(ids.begin(), ids.end(), includes);
+    int sum = 0;
+    for (const EdgeId edge : ids)
+      if (shape_.edges[edge].number == shape_.edges[*first].number) sum += targets_.fixed[edge];
+    return sum;
   }
 
   static bool is_on(EdgeId edge, const FaceSides& sides) {

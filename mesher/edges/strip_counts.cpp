@@ -14,11 +14,9 @@ namespace quadrille {
 
 namespace {
 
-/// What the aspect of quads in the narrowest row may be beside that in a row of mean width.
-constexpr double in_narrowest = 1.19;
-constexpr double least_of_mean = 0.5;
-/// What rounding of counts may make of the aspect.
-constexpr double by_rounding = 1.22;
+/// Quads in the narrowest row may exceed the aspect by this factor, which is 4.9 in place of 4; the quality
+/// limit is 5.
+constexpr double in_narrowest = 1.22;
 
 /// How wide the rows are that end on two facing sides, or on parts of these.
 struct RowWidths {
@@ -27,11 +25,9 @@ struct RowWidths {
   double narrowest = std::numeric_limits<double>::infinity();
   bool divided = false;  ///< by users
 
+  double mean() const { return length / rows; }
   /// Rows far narrower than others, as at the leading edge of a wing, do not make all quads so short.
-  double width() const {
-    const double mean = length / rows;
-    return std::clamp(in_narrowest * narrowest, least_of_mean * mean, mean);
-  }
+  double least() const { return std::clamp(narrowest, 0.5 * mean(), mean()); }
 };
 
 double shortest_segment(double length, const std::vector<double>& shares, const CountTable& table,
@@ -50,7 +46,8 @@ double shortest_segment(double length, const std::vector<double>& shares, const 
 bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
                          const BoundaryNodes& nodes, const EdgeShares& shares, double aspect, double shortest,
                          IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
-  IdVector<EdgeId, double> densities(shape.edges.size());  // (chords) least segments for each whole edge
+  // (chords) wanted and least segments for each whole edge
+  IdVector<EdgeId, double> wanted(shape.edges.size()), least(shape.edges.size());
   const auto widths = [&](std::span<const FacingPair> pairs) {
     RowWidths result;
     for (const FacingPair& pair : pairs) {
@@ -74,26 +71,30 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
     for (const int k : {0, 1}) {
       const RowWidths across = widths(ways[1 - k]);
       if (across.rows == 0 || across.divided) continue;
-      const double longest = std::max(aspect * across.width(), shortest);
+      const double at_most = in_narrowest * aspect * across.least();
+      if (at_most < shortest) continue;  // out of reach
+      const double longest = std::max(aspect * across.mean(), shortest);
       for (const FacingPair& pair : ways[k])
         for (const FaceSide* side : {&pair.first, &pair.second})
           for (const SideEdge& edge : *side) {
-            double& of_chord = densities[chosen.chords.of(edge.edge)];
-            of_chord = std::max(of_chord, shape.edges[edge.edge].length / longest);
+            const EdgeId chord = chosen.chords.of(edge.edge);
+            const double length = shape.edges[edge.edge].length;
+            wanted[chord] = std::max(wanted[chord], length / longest);
+            least[chord] = std::max(least[chord], std::ceil(length / at_most));
           }
     }
   }
   bool any = false;
   for (const EdgeId i : tables.ids()) {
-    const double density = densities[chosen.chords.of(i)];
-    if (targets.least[i] == 0 || density <= 0) continue;
+    const EdgeId chord = chosen.chords.of(i);
+    if (targets.least[i] == 0 || wanted[chord] <= 0) continue;
     const double before = tables[i].total();
-    tables[i].raise_to(density / tables[i].length());
-    const int least = targets.least_of_grids[i];
-    targets.least_of_grids[i] = std::max(least, to_int(std::ceil(density / by_rounding)));
-    targets.least[i] = std::max(targets.least[i], to_int(std::ceil(density / by_rounding / targets.stride)));
+    const int segments = to_int(least[chord]), before_least = targets.least_of_grids[i];
+    tables[i].raise_to(std::max(wanted[chord], least[chord]) / tables[i].length());
+    targets.least_of_grids[i] = std::max(before_least, segments);
+    targets.least[i] = std::max(targets.least[i], (segments + targets.stride - 1) / targets.stride);
     constexpr double noticeable = 1.02;
-    if (tables[i].total() <= noticeable * before && targets.least_of_grids[i] == least) continue;
+    if (tables[i].total() <= noticeable * before && targets.least_of_grids[i] == before_least) continue;
     targets.wanted[i] = std::max(targets.wanted[i], tables[i].total() / targets.stride);
     any = true;
   }

@@ -197,7 +197,7 @@ TEST(EdgeSpacing, APieceIsNamedAsItsEdge) {
     mesh_with(model, {{4, {5, 1, 1}}}, Strategy::direct);
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("one of Edge4"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("use 4 or 6 on Edge4"), std::string::npos) << error.what();
     EXPECT_EQ(std::string(error.what()).find(','), std::string::npos) << error.what();
   }
 }
