@@ -38,23 +38,17 @@ class CountChooser {
   }
 
   EdgeCounts run() {
-    is_waiting_.resize(sides_.size());
-    for (const FaceId face : sides_.ids()) is_waiting_[face] = sides_[face].has_steps();
     tie_chords();
     std::vector<FaceId> odd = balance_faces();
-    if (odd.empty() && take_steps()) {
-      odd = balance_faces();
-      if (!odd.empty()) odd = balance_without_steps();
-    }
     if (!odd.empty()) {
       // Usually edges of three or more faces. First drop faces with sides of several edges, then all.
       for (const FaceId face : sides_.ids()) {
-        if (has_sums(sides_[face])) drop(face);
+        if (has_sums(sides_[face])) sides_[face].drop_facing();
       }
       odd = make_faces_even();
     }
     if (!odd.empty()) {
-      for (const FaceId face : sides_.ids()) drop(face);
+      for (const FaceId face : sides_.ids()) sides_[face].drop_facing();
       tie_chords();
       odd = make_faces_even();
     }
@@ -74,12 +68,6 @@ class CountChooser {
   static bool has_sums(const FaceSides& sides) {
     return std::any_of(sides.facing.begin(), sides.facing.end(),
                        [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
-  }
-
-  /// Reduces a face to a parity condition.
-  void drop(FaceId face) {
-    sides_[face].drop_facing();
-    is_waiting_[face] = 0;
   }
 
   double sum_of(const FaceSide& side) const {
@@ -207,14 +195,13 @@ class CountChooser {
     for (const auto& [a, b] : targets_.tied) unite(a, b);
     for (const FaceId face : sides_.ids()) {
       const auto& facing = sides_[face].facing;
-      if (is_waiting_[face]) continue;
       bool fits = std::none_of(facing.begin(), facing.end(),
                                [&](const FacingPair& pair) { return is_far_off(pair); });
       for (const FacingPair& pair : facing) {
         if (fits && pair.first.size() == 1 && pair.second.size() == 1)
           fits = tie(pair.first[0], pair.second[0], largest_ratio);
       }
-      if (!fits) drop(face);
+      if (!fits) sides_[face].drop_facing();
     }
     start_values();
   }
@@ -292,13 +279,8 @@ class CountChooser {
     is_between_grids_.assign(problem_.variables.size(), 1);
     for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
-      const bool is_grid = sides.rest.empty() && sides.is_filled() && !is_waiting_[face];
+      const bool is_grid = sides.rest.empty() && sides.is_filled();
       for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
-      if (is_waiting_[face]) {
-        const int node = add_node(face, BalanceProblem::Rule::even);
-        for_each_edge(sides, [&](EdgeId edge) { add_term(edge, node, 1); });
-        continue;
-      }
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
       if (sides.rest.empty() || (sides.may_be_odd() && targets_.stride == 2)) continue;
@@ -316,70 +298,6 @@ class CountChooser {
                                                                         : term.second % 2 == 0;
       });
     }
-  }
-
-  /// Adds the facing sides of stepped faces, one face at a time. A face whose sides would take the counts too
-  /// far from the wanted ones loses its outline instead, so that no other face suffers for it.
-  /// \return whether there are stepped faces.
-  bool take_steps() {
-    bool any = false;
-    for (const FaceId face : sides_.ids()) {
-      if (!is_waiting_[face]) continue;
-      any = true;
-      targets_.check();
-      if (!take_steps_of(face)) drop(face);
-      is_waiting_[face] = 0;
-    }
-    if (any) set_up_rules();
-    return any;
-  }
-
-  std::vector<FaceId> balance_without_steps() {
-    for (const FaceId face : sides_.ids()) {
-      if (sides_[face].has_steps()) drop(face);
-    }
-    start_values();
-    return balance_faces();
-  }
-
-  bool take_steps_of(FaceId face) {
-    const auto& facing = sides_[face].facing;
-    if (std::any_of(facing.begin(), facing.end(), [&](const FacingPair& pair) { return is_far_off(pair); }))
-      return false;
-    const int rules = static_cast<int>(problem_.rules.size());
-    constexpr double most = 0.25;  // added squared deviation: that of an edge with 1.5 times its wanted count
-    // The facing sides replace the face's even sum.
-    const auto ruled = std::find(faces_of_nodes_.begin(), faces_of_nodes_.end(), face);
-    const int even = static_cast<int>(ruled - faces_of_nodes_.begin());
-    std::vector<int> values;
-    std::vector<std::size_t> ruled_chords;
-    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
-      auto& variable = problem_.variables[i];
-      values.push_back(variable.value);
-      if (std::erase_if(variable.terms, [&](const auto& term) { return term.first == even; }) > 0)
-        ruled_chords.push_back(i);
-    }
-    add_facing(face);
-    drop_idle_terms();
-    const double cost = deviation(problem_);
-    if (balance(problem_, targets_.check).empty() && deviation(problem_) <= cost + most) return true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      problem_.variables[i].value = values[i];
-      std::erase_if(problem_.variables[i].terms, [&](const auto& term) { return term.first >= rules; });
-    }
-    for (const std::size_t i : ruled_chords) problem_.variables[i].terms.push_back({even, 1});
-    problem_.rules.resize(rules);
-    faces_of_nodes_.resize(rules);
-    return false;
-  }
-
-  static double deviation(const BalanceProblem& problem) {
-    double sum = 0;
-    for (const auto& variable : problem.variables) {
-      const double wanted = std::max(variable.wanted, 1.0 * variable.least);
-      sum += variable.weight * std::pow((variable.value - wanted) / wanted, 2);
-    }
-    return sum;
   }
 
   template <class Visit>
@@ -431,7 +349,7 @@ class CountChooser {
         const FaceId face = faces_of_nodes_[node];
         if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face);
         if (sides_[face].facing.empty()) continue;
-        drop(face);
+        sides_[face].drop_facing();
         dropped = true;
       }
     }
@@ -487,7 +405,6 @@ class CountChooser {
   EdgeFlags is_between_grids_;                     // 1 = all its faces are grids
   BalanceProblem problem_;                         // one variable for each edge; only those of chords matter
   std::vector<FaceId> faces_of_nodes_;             // (nodes)
-  FaceFlags is_waiting_;                           // 1 = stepped, only its even sum counts so far
 };
 
 }  // namespace

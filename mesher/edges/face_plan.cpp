@@ -95,7 +95,6 @@ FacePlan plan_of(const CadShape& shape, const CadFace& face, FaceSides sides, bo
     }
   }
   plan.is_filled = sides.is_filled();
-  plan.has_steps = sides.has_steps();
   plan.keeps_rows = sides.has_whole_rows() && plan.has_kept_edge;
   if (sides.has_four_sides()) {
     const GridSize grid = size_of(sides_of(face, sides, nodes));

@@ -1,4 +1,4 @@
-/// Sorts outlines by their corners: four, three or five, steps, or two loops.
+/// Sorts outlines by their corners: four, three or five, or two loops.
 
 #include "mesher/edges/face_sides.hpp"
 
@@ -29,7 +29,6 @@ namespace {
 
 constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
 constexpr double smooth_turning = 0.6;  // radians; largest turn at other vertices
-constexpr double most_backward = 2.4;   // radians; largest turn to the right at a corner of an outline
 
 /// A wire without the edges that are left out of the mesh.
 struct Walk {
@@ -88,8 +87,7 @@ class SideFinder {
     std::vector<int> corners;
     for (int k = 0; k < static_cast<int>(walk.turnings.size()); ++k) {
       const double turning = walk.turnings[k];
-      if (turning < -most_backward) return std::nullopt;
-      if (std::abs(turning) > corner_turning) {
+      if (turning > corner_turning) {
         corners.push_back(k);
       } else if (std::abs(turning) > smooth_turning) {
         return std::nullopt;
@@ -105,14 +103,10 @@ class SideFinder {
     return side;
   }
 
-  /// Finds outlines with three to five corners, or with steps.
+  /// Finds outlines with three to five corners.
   void take_corners(const Walk& walk, FaceSides& sides) const {
     const auto corners = corners_of(walk);
-    if (!corners || corners->size() < 3) return;
-    const bool is_stepped =
-        std::any_of(corners->begin(), corners->end(), [&](int k) { return walk.turnings[k] < 0; });
-    if (is_stepped) return take_steps(walk, *corners, sides);
-    if (corners->size() > 5) return;
+    if (!corners || corners->size() < 3 || corners->size() > 5) return;
     for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
     sides.kind = corners->size() == 4 ? GridKind::four : GridKind::odd;
     if (corners->size() != 4) return;
@@ -121,65 +115,6 @@ class SideFinder {
     add_pairs(four[0], turned(four[2]), sides);
     sides.across = sides.facing.size();
     add_pairs(four[1], turned(four[3]), sides);
-  }
-
-  /// A side of a stepped outline as an axis-parallel line.
-  struct Tread {
-    double from, to;  // range of its own coordinate
-    double level;     // the other coordinate
-    FaceSide side;
-  };
-
-  /// Finds stepped outlines, whose corners add up to one full turn to the left.
-  void take_steps(const Walk& walk, const std::vector<int>& corners, FaceSides& sides) const {
-    int turns = 0;
-    for (const int corner : corners) turns += walk.turnings[corner] > 0 ? 1 : -1;
-    if (turns != 4) return;
-    std::array<std::vector<Tread>, 4> treads;  // by direction
-    std::array<double, 2> place{};
-    int direction = 0;
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      if (c > 0) direction = (direction + (walk.turnings[corners[c]] > 0 ? 1 : 3)) % 4;
-      FaceSide side = between(walk, corners[c], corners[(c + 1) % corners.size()]);
-      double& at = place[direction % 2];
-      const double before = at, length = length_of(side);
-      at += direction < 2 ? length : -length;
-      sides.starts.push_back(walk.coedges[corners[c]]);
-      sides.directions.push_back(direction);
-      if (direction >= 2) side = turned(std::move(side));
-      treads[direction].push_back(
-          {std::min(before, at), std::max(before, at), place[1 - direction % 2], std::move(side)});
-    }
-    if (is_narrow(treads[0], treads[2]) || is_narrow(treads[1], treads[3])) {
-      sides = {};
-      return;
-    }
-    sides.kind = GridKind::stepped;
-    for (int d = 0; d < 2; ++d) add_treads(treads[d], treads[d + 2], sides);
-  }
-
-  /// Whether treads come so close that rows between them would lean by more than their height.
-  bool is_narrow(const std::vector<Tread>& one, const std::vector<Tread>& other) const {
-    constexpr double least = 0.5;
-    return std::any_of(one.begin(), one.end(), [&](const Tread& a) {
-      const double length = segment_of(a.side);
-      return std::any_of(other.begin(), other.end(), [&](const Tread& b) {
-        return std::min(a.to, b.to) > std::max(a.from, b.from) &&
-               std::abs(a.level - b.level) < least * std::max(length, segment_of(b.side));
-      });
-    });
-  }
-
-  double segment_of(const FaceSide& side) const {
-    return length_of(side) / std::max(1.0, std::max(wanted_of(side), static_cast<double>(side.size())));
-  }
-
-  /// The counts of all treads in one direction add up to those of the treads against it.
-  static void add_treads(const std::vector<Tread>& one, const std::vector<Tread>& other, FaceSides& sides) {
-    FacingPair& pair = sides.facing.emplace_back();
-    for (const Tread& tread : one) pair.first.insert(pair.first.end(), tread.side.begin(), tread.side.end());
-    for (const Tread& tread : other)
-      pair.second.insert(pair.second.end(), tread.side.begin(), tread.side.end());
   }
 
   static bool is_smooth(const Walk& walk) {

@@ -26,28 +26,23 @@ struct FacingPair {
 /// look at it; all others read what follows from it, in FaceSides and FacePlan.
 enum class GridKind {
   other,
-  four,     ///< one loop with four corners
-  odd,      ///< one loop with three or five corners: that many grids around a point
-  stepped,  ///< one loop of right-angled corners to the left and right, as an L, a T or a comb
-  ring,     ///< two loops without corners
-  holed     ///< one loop with four corners, and holes without corners
+  four,  ///< one loop with four corners
+  odd,   ///< one loop with three or five corners: that many grids around a point
+  ring,  ///< two loops without corners
+  holed  ///< one loop with four corners, and holes without corners
 };
 
 /// The outline of a face and the conditions that the counts around it must satisfy.
 struct FaceSides {
   GridKind kind = GridKind::other;
-  /// Pairs of sides whose counts must be equal. In a stepped outline, one side of a pair may join several
-  /// sides of the face.
+  /// Pairs of sides whose counts must be equal.
   std::vector<FacingPair> facing;
   /// (four) index of the first pair whose sides run across those of the first one
   std::size_t across = 0;
   std::vector<EdgeId> rest;  ///< edges whose counts must have an even sum
   int outer = 0;             ///< index of the wire with the corners
-  /// (four, odd, stepped, holed) index of the first coedge of each side in that wire
+  /// (four, odd, holed) index of the first coedge of each side in that wire
   std::vector<int> starts;
-  /// (stepped) direction of each side in quarter turns from that of the first side, 0 to 3: sides with 0 and
-  /// 2 run in opposite directions, and so do sides with 1 and 3
-  std::vector<int> directions;
 
   /// Whether a grid fills the face from side to side: its nodes face each other, and its sides need no room
   /// between them.
@@ -58,8 +53,6 @@ struct FaceSides {
   bool has_four_sides() const { return kind == GridKind::four; }
   /// Whether rows run along the face from end to end, or all the way around.
   bool has_whole_rows() const { return kind == GridKind::four || kind == GridKind::ring; }
-  /// Whether its facing sides are counted after those of all other faces, since each joins many chords.
-  bool has_steps() const { return kind == GridKind::stepped; }
   /// Whether holes take the place of cells of its grid.
   bool has_holes() const { return kind == GridKind::holed; }
   /// Whether the counts of `rest` divide the face into grids that meet at a point inside.
@@ -80,10 +73,9 @@ using FaceOutlines = IdVector<FaceId, FaceSides>;
 /// How much the boundary of a face turns from a coedge to the next one: radians, positive to the left.
 double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to);
 
-/// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle, to
-/// the left or, in stepped outlines, to the right. A side may have several edges. Opposite sides are cut into
-/// several pairs where their vertices face each other, so that each part keeps its own count.
-/// \param wanted number of segments
+/// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle to
+/// the left. A side may have several edges. Opposite sides are cut into several pairs where their vertices
+/// face each other, so that each part keeps its own count. \param wanted number of segments
 FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
                              const IdVector<EdgeId, double>& wanted);
 

@@ -44,7 +44,7 @@ class SingleSegments {
   /// Chords on which sums over sides of several edges depend keep their segments, and those of faces that are
   /// filled in blocks.
   void keep_sums(const FaceSides& sides) {
-    const bool has_blocks = sides.has_holes() || sides.has_steps() || sides.is_star();
+    const bool has_blocks = sides.has_holes() || sides.is_star();
     for (const FacingPair& pair : sides.facing) {
       std::map<EdgeId, int> sums;
       for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];

@@ -12,14 +12,13 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/faces/spokes.hpp"
-#include "mesher/faces/step_layout.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
 
 namespace {
 
-using Line = StepLayout::Line;  // consecutive points
+using Line = std::vector<int>;  // consecutive points
 
 constexpr double least_jacobian = 0.3;  // scaled Jacobian of a cell
 
@@ -44,9 +43,6 @@ class GridMaker {
     switch (sides_.kind) {
       case GridKind::four:
         if (!make_four()) return std::nullopt;
-        break;
-      case GridKind::stepped:
-        if (!make_stepped()) return std::nullopt;
         break;
       case GridKind::ring:
         if (!make_ring()) return std::nullopt;
@@ -122,25 +118,6 @@ class GridMaker {
     if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return false;
     fill(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
     return true;
-  }
-
-  /// Lays the steps out in whole cells. If they close without overlap, each cell becomes a quad. Laplace's
-  /// equation spreads the nodes inside, on columns and rows as wide as on the boundary, so that straight
-  /// steps get straight lines.
-  bool make_stepped() {
-    if (loops_.size() != 1) return false;
-    const auto layout = StepLayout::make(cut_loop(), sides_.directions, grid_.points, check_);
-    if (!layout) return false;
-    const std::vector<Vector2> inside = layout->spread(grid_.uv, check_);
-    const int first = static_cast<int>(grid_.uv.size());
-    for (const Vector2& uv : inside) add_point(uv);
-    layout->for_each_cell([&](const std::array<int, 4>& corners) {
-      check_();
-      std::array<int, 4> quad = corners;
-      for (int& point : quad) point = point < 0 ? first + StepLayout::inner(point) : point;
-      grid_.quads.push_back(quad);
-    });
-    return !grid_.quads.empty();
   }
 
   /// Makes rows between two loops, rotated so that the distances between their nodes are smallest.

@@ -52,16 +52,15 @@ double badness(const FaceMesh& mesh) {
 }  // namespace
 
 bool FaceJudge::is_doubtful(const FaceMesh& grid, const FacePlan& plan) {
-  stepped_ = plan.has_steps;
-  outside_ = stepped_ || has_rows(grid) ? share_outside(grid) : 0;
+  outside_ = has_rows(grid) ? share_outside(grid) : 0;
   wasteful_ = !plan.has_divided_edge && wastes_quads(grid, GridWaste::wasteful);
-  return wasteful_ || outside_ > (stepped_ ? thresholds.outside_of_steps : thresholds.outside_of_grid);
+  return wasteful_ || outside_ > thresholds.outside_of_grid;
 }
 
 bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
-  if ((stepped_ ? thresholds.gain_of_steps : thresholds.gain) * left < outside_) return true;
+  if (thresholds.gain * left < outside_) return true;
   return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, thresholds.most_outside / share);
 }
 

@@ -13,11 +13,10 @@ namespace quadrille {
 /// The thresholds of all comparisons. Tuned on 57 parts as users have them, at sizes of a 20th, a 60th and a
 /// 150th of their diagonals.
 struct FaceThresholds {
-  /// A grid is kept without a look at other meshes up to this share of quads outside the limits; one with
-  /// steps has corners of its own, which other meshes do not have.
-  double outside_of_grid = 0.05, outside_of_steps = 0.01;
+  /// A grid is kept without a look at other meshes up to this share of quads outside the limits.
+  double outside_of_grid = 0.05;
   /// The share outside the limits in a grid must fall by this factor with another mesh.
-  double gain = 2, gain_of_steps = 1;
+  double gain = 2;
   /// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
   double most_outside = 0.05;
   /// Quads cut in four are replaced by quads of the final size if there are more than `few` and this many
@@ -52,7 +51,7 @@ class FaceJudge {
   const FaceSurface& surface_;
   const ExecutionContext& context_;
   double outside_ = 0;  // of the grid, as far as it counts
-  bool wasteful_ = false, stepped_ = false;
+  bool wasteful_ = false;
   bool cut_wastes_ = false;  // of the quads cut in four
 };
 

@@ -27,15 +27,10 @@ TEST(FacePlan, CountsTheQuadsOfAGrid) {
   const FacePlan& plan = nodes.plans[face_id(1)];
   EXPECT_EQ(plan.grid_quads, 60);
   EXPECT_TRUE(plan.is_filled);
-  EXPECT_FALSE(plan.has_steps);
   EXPECT_FALSE(plan.has_kept_edge || plan.has_divided_edge || plan.keeps_rows);
 }
 
-TEST(FacePlan, KnowsStepsAndHoles) {
-  const CadModel model = testing::sheet({{{0, 0}, {20, 0}, {20, 8}, {9, 8}, {9, 15}, {0, 15}}});
-  const BoundaryNodes steps = sampled(model, 1, 1);
-  EXPECT_TRUE(steps.plans[face_id(1)].has_steps);
-  EXPECT_EQ(steps.plans[face_id(1)].grid_quads, 0);
+TEST(FacePlan, KnowsHoles) {
   const CadModel plate = CadModel::read(sample_model("plate_with_holes").path());
   const BoundaryNodes holed = sampled(plate, 3, 1);
   const FacePlan& plan = holed.plans[face_id(1)];
