@@ -24,8 +24,7 @@ auto text_of(const FaceRecipe& r) {
 
 auto text_of(const SamplingPlan& p) {
   const auto list = [](const auto& values) { return std::vector<int>(values.begin(), values.end()); };
-  return std::tuple(list(p.factor), list(p.ignore_curvature), list(p.subdivided),
-                    p.finer.size());
+  return std::tuple(list(p.factor), list(p.ignore_curvature), list(p.subdivided), p.finer.size());
 }
 
 class Remedies : public testing::Test {
