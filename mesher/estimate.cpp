@@ -46,7 +46,7 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   for (const FaceSample& sample : samples) {
     const double size = size_at(sample.point);
     area += sample.area;
-    result.wanted += sample.area / (size * size_at.across(sample.point, sample.curvature));
+    result.wanted += sample.area / (size * size_at.across(size, sample.curvature));
     coarse = std::max(coarse, size);
   }
   const auto for_each_segment = [&](const auto& act) {

@@ -138,6 +138,7 @@ class Builder {
     for (const FaceId face : shape_.edges[edge].faces)
       (unsized_.is_gridded(face) ? gridded : free).push_back(face);
     for (const bool by_shape : {true, false}) {
+      if ((by_shape ? free : gridded).empty()) continue;
       Batch batch(*this, field_.cascades_of(by_shape ? free : gridded));
       sources_.edge(edge, by_shape, [&](const Vector3& p, double size) { batch.add(p, size); });
       batch.pass_on();
@@ -472,16 +473,16 @@ double SizingField::Sampler::operator()(const Vector3& point) {
   return std::clamp(size, impl_.size_min, impl_.frame.size_max);
 }
 
-double SizingField::Sampler::along(const Vector3& point, double curvature) {
-  return std::min((*this)(point), size_of_curvature(impl_.options, impl_.limits, curvature));
+double SizingField::Sampler::bent(double size, double curvature) const {
+  return std::min(size, size_of_curvature(impl_.options, impl_.limits, curvature));
 }
 
-double SizingField::Sampler::across(const Vector3& point, double curvature) {
-  return directed_ ? along(point, curvature) : (*this)(point);
+double SizingField::Sampler::across(double size, double curvature) const {
+  return directed_ ? bent(size, curvature) : size;
 }
 
-double SizingField::Sampler::across(const Vector3& point, const FaceSurface& surface, const Vector2& uv) {
-  return directed_ && !surface.planar() ? along(point, surface.max_curvature(uv)) : (*this)(point);
+double SizingField::Sampler::across(double size, const FaceSurface& surface, const Vector2& uv) const {
+  return directed_ && !surface.planar() ? bent(size, surface.max_curvature(uv)) : size;
 }
 
 }  // namespace quadrille

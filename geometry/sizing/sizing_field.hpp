@@ -70,7 +70,7 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
 /// Where rows of quads run over a face from side to side (UnsizedFeatures::gridded), sizes have directions:
 /// curvature requests its size in the direction of the bend, and SizingOptions::aspect times that in the
 /// field; edges request their lengths and curvatures in their own direction alone; narrowness requests
-/// nothing. h(x) holds what applies in all directions, Sampler::along() and Sampler::across() add the rest.
+/// nothing. h(x) holds what applies in all directions, Sampler::bent() and Sampler::across() add the rest.
 ///
 /// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes requested on
 /// faces, edges and vertices, gaps inside faces, walls, regions, points, layers, and an external grid. They
@@ -119,12 +119,12 @@ class SizingField {
     Sampler(const Sampler&) = delete;
     Sampler& operator=(const Sampler&) = delete;
     double operator()(const Vector3& point);  ///< wanted size, millimeters
-    /// On an edge: the wanted size in its direction, given its curvature (1 / length).
-    double along(const Vector3& point, double curvature);
+    /// A wanted size in the direction in which an edge or face bends with this curvature (1 / length).
+    double bent(double size, double curvature) const;
     /// On a face: the wanted size in the direction in which it bends most, given that curvature.
-    double across(const Vector3& point, double curvature);
-    /// The same at a point of the surface with these parameters.
-    double across(const Vector3& point, const FaceSurface& surface, const Vector2& uv);
+    double across(double size, double curvature) const;
+    /// The same at a point of the surface.
+    double across(double size, const FaceSurface& surface, const Vector2& uv) const;
     bool is_directed() const { return directed_; }  ///< whether sizes have directions on the face
     const Budget& budget() const;                   ///< the field's budget
 

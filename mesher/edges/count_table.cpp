@@ -42,7 +42,8 @@ class EdgeTabulator {
   }
 
   double size_at(double t, const Vector3& p) {
-    return bends_ ? size_at_.along(p, curve_.curvature(t)) : size_at_(p);
+    const double size = size_at_(p);
+    return bends_ ? size_at_.bent(size, curve_.curvature(t)) : size;
   }
 
   void add(double t, const Vector3& p, double length) {

@@ -164,7 +164,6 @@ class EdgeSampler {
     tables_.resize(n_);
     targets_.stride = result_.stride;
     targets_.check = [this] { context_.check(); };
-    targets_.check = [this] { context_.check(); };
     targets_.least.assign(n_, 0);
     targets_.least_of_grids.assign(n_, 0);
     targets_.wanted.assign(n_, 0);

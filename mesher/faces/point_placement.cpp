@@ -168,7 +168,7 @@ class Placer {
       point.uv = boundary_.uv[i];
       point.at = surface_.evaluate(point.uv);
       point.normal = surface_.normal(point.at, point.uv);
-      point.size = options_.scale * size_at_.across(boundary_.points[i], surface_, boundary_.uv[i]);
+      point.size = options_.scale * size_at_.across(size_at_(boundary_.points[i]), surface_, boundary_.uv[i]);
       front_.push_back(point);
     }
     follow_segments();
@@ -244,7 +244,7 @@ class Placer {
     double length = from.size;
     if (!step(from, direction, length, to)) return;
     to.ratio = 1 + (from.ratio - 1) * ratio_decay;
-    const double size = to.ratio * options_.scale * size_at_.across(to.at.point, surface_, to.uv);
+    const double size = to.ratio * options_.scale * size_at_.across(size_at_(to.at.point), surface_, to.uv);
     const double wanted = 0.5 * (from.size + size);
     if (std::abs(wanted - length) > 0.05 * length) {
       length = wanted;

@@ -80,7 +80,7 @@ bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {
   for (const auto& [a, b, c, d] : mesh.quads) {
     check();
     const Vector3 middle = 0.25 * (p[a] + p[b] + p[c] + p[d]);
-    const double along = size_at_(middle), across = size_at_.across(middle, surface_, mesh.uv[a]);
+    const double along = size_at_(middle), across = size_at_.across(along, surface_, mesh.uv[a]);
     wanted += 0.5 * (p[c] - p[a]).cross(p[d] - p[b]).norm() / (along * across);
   }
   return is_wasteful(static_cast<double>(mesh.quads.size()), wanted, static_cast<double>(mesh.nodes.size()),

@@ -83,7 +83,7 @@ class WantedSides {
     if (!size_at_.is_directed() || surface_.planar()) return sizes;
     const Vector3 middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
     surface_.project(uv_, middle);
-    const double across = size_at_.across(middle, surface_, uv_);
+    const double across = size_at_.across(size_at_(middle), surface_, uv_);
     const auto length = [&](int k) {
       return (corners[k + 1] - corners[k]).norm() + (corners[(k + 3) % 4] - corners[k + 2]).norm();
     };
