@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/base/whole_number.hpp"
 
 namespace quadrille {
@@ -29,6 +30,46 @@ struct RowWidths {
   /// Rows far narrower than others, as at the leading edge of a wing, do not make all quads so short.
   double least() const { return std::clamp(narrowest, 0.5 * mean(), mean()); }
 };
+
+/// How much narrower a face is between its ends than at them: the smallest and the mean ratio, at most 1.
+struct Waist {
+  double narrowest = 1, mean = 1;
+};
+
+double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
+  return (a + nearest_share(a, b, point) * (b - a) - point).norm();
+}
+
+/// \param along the sides from end to end, cut into pairs
+Waist waist_between(const CadShape& shape, std::span<const FacingPair> along) {
+  constexpr int pieces_of_side = 16;
+  std::array<std::vector<Vector3>, 2> sides;
+  for (const FacingPair& pair : along)
+    for (const FaceSide* side : {&pair.first, &pair.second})
+      for (const SideEdge& edge : *side) {
+        const int pieces = std::max(1, pieces_of_side / static_cast<int>(along.size() * side->size()));
+        std::vector<Vector3> points = points_along(shape.edges[edge.edge], pieces);
+        if (!edge.forward) std::ranges::reverse(points);
+        std::vector<Vector3>& all = sides[side == &pair.first ? 0 : 1];
+        all.insert(all.end(), points.begin(), points.end());
+      }
+  const auto& [a, b] = sides;
+  const double at_start = (a.front() - b.front()).norm(), at_end = (a.back() - b.back()).norm();
+  Waist result;
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(a.size() - 1);
+    const double straight = (1 - share) * at_start + share * at_end;
+    double width = straight;
+    for (std::size_t k = 1; k < b.size(); ++k)
+      width = std::min(width, distance_to_segment(a[i], b[k - 1], b[k]));
+    const double ratio = straight > 0 ? width / straight : 1;
+    result.narrowest = std::min(result.narrowest, ratio);
+    sum += ratio;
+  }
+  result.mean = sum / static_cast<double>(a.size());
+  return result;
+}
 
 double shortest_segment(double length, const std::vector<double>& shares, const CountTable& table,
                         int count) {
@@ -69,10 +110,12 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
     const std::span all(face.facing);
     const std::array ways{all.first(face.across), all.subspan(face.across)};
     for (const int k : {0, 1}) {
-      const RowWidths across = widths(ways[1 - k]);
+      RowWidths across = widths(ways[1 - k]);
       if (across.rows == 0 || across.divided) continue;
-      const double at_most = in_narrowest * aspect * across.least();
-      if (at_most < shortest) continue;  // out of reach
+      const Waist waist = waist_between(shape, ways[k]);
+      across.narrowest *= waist.narrowest;
+      across.length *= waist.mean;
+      const double at_most = std::max(in_narrowest * aspect * across.least(), shortest);
       const double longest = std::max(aspect * across.mean(), shortest);
       for (const FacingPair& pair : ways[k])
         for (const FaceSide* side : {&pair.first, &pair.second})

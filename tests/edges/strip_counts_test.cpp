@@ -99,6 +99,20 @@ TEST(StripCounts, NoQuadOfAStripIsTooLong) {
   }
 }
 
+/// A strip may be narrower in the middle than at its ends: there its rows are.
+TEST(StripCounts, NoQuadOfAWaistIsTooLong) {
+  for (const double width : {1.0, 1.5, 2.0}) {
+    const double waist = 0.6 * width;
+    const CadModel sheet = testing::sheet(
+        {{{0, 0}, {30, waist}, {60, 0}, {60, 2 * width}, {30, 0.8 * width + waist}, {0, 2 * width}},
+         {{0, 0}, {30, waist}, {60, 0}, {60, -30}, {0, -30}}});
+    MeshOptions options;
+    options.sizing.size = 5;
+    ExecutionContext context(1);
+    EXPECT_LE(largest_aspect(quadrille::mesh(sheet, options, context)), 5) << width;
+  }
+}
+
 TEST(StripCounts, RaisesATableWhereItIsLow) {
   CountTable table{{0, 1, 2}, {0, 4, 5}, {0, 10, 20}, 0};
   table.raise_to(0.3);
