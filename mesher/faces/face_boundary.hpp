@@ -56,6 +56,14 @@ inline FaceBoundary face_boundary(const CadShape& shape, FaceId face, const Face
 /// a boundary with stride 1 unchanged.
 FaceBoundary halved(FaceBoundary boundary);
 
+/// Visits the number of each point's node, and of each middle node.
+template <class Visit>
+void for_each_node(FaceBoundary& boundary, Visit&& visit) {
+  for (int& node : boundary.nodes) visit(node);
+  for (FaceBoundary::Segment& segment : boundary.segments)
+    if (segment.middle_node >= 0) visit(segment.middle_node);
+}
+
 /// The domain in the parameter plane that the boundary encloses.
 TrimmedDomain enclosed_domain(const FaceBoundary& boundary);
 

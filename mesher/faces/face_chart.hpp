@@ -20,6 +20,7 @@ enum class ChartKind {
 };
 
 struct FaceChart {
+  ChartKind kind = ChartKind::own;
   std::shared_ptr<const CadFace> other;        ///< the face with new parametric curves; null for other kinds
   std::shared_ptr<const FaceSurface> surface;  ///< the surface that the boundary's uv refer to
   FaceBoundary boundary;

@@ -27,6 +27,7 @@ struct FaceRecord {
 
   FaceRecipe recipe;                      ///< how the face is meshed next
   int looks_at_gaps = 0;                  ///< times that narrow gaps were found; most_looks = look no more
+  int charts = 0;                         ///< number of charts that were made, or failed
   int attempts = 0;                       ///< number of meshings
   double seconds = 0;                     ///< time that all meshings took
   std::int64_t first_work = 0, work = 0;  ///< work of the first meshing of its kind, and of all

@@ -57,38 +57,69 @@ FaceProblem problem_of(const Run& run, FaceId face, const FaceRecord& record, co
           is_named ? error.what() : fmt::format("Face{}: {}", face.number(), error.what())};
 }
 
-/// Keeps the meshes of faces whose boundary is unchanged, and renumbers their boundary nodes.
-void keep_meshes(const CadShape& shape, const Boundary& boundary, const BoundaryNodes& nodes, Faces& faces) {
-  if (boundary.nodes.edges.empty()) return;
-  constexpr int none = -1, several = -2;
-  std::vector<int> renumbered(boundary.nodes.points.size(), none);
-  // One node may have become several: the ends of an edge that was suppressed before and is kept now.
-  const auto renumber = [&](int before, int now) {
-    if (before < 0 || now < 0) return;
-    int& number = renumbered[before];
-    number = number == none || number == now ? now : several;
-  };
-  EdgeFlags same(nodes.edges.size());
-  for (const EdgeId i : same.ids()) {
-    const auto &before = boundary.nodes.edges[i], &now = nodes.edges[i];
-    same[i] = before.parameters == now.parameters;
-    if (!same[i]) continue;
-    for (std::size_t k = 0; k < now.nodes.size(); ++k) renumber(before.nodes[k], now.nodes[k]);
-  }
-  for (const VertexId i : nodes.vertex_nodes.ids())
-    renumber(boundary.nodes.vertex_nodes[i], nodes.vertex_nodes[i]);
-  for (const FaceId face : faces.meshes.ids()) {
-    auto& mesh = faces.meshes[face];
-    if (!mesh) continue;
-    bool keep = boundary.meshed[face];
-    for (const EdgeId edge : edges_of(shape.faces[face])) keep = keep && same[edge];
-    for (int& node : mesh->nodes) {
-      node = renumbered[node];
-      keep = keep && node >= 0 && node < static_cast<int>(nodes.points.size());
+/// What nodes of the last sampling became in a new one.
+class Renumbering {
+ public:
+  Renumbering(const BoundaryNodes& before, const BoundaryNodes& now)
+      : before_(before), now_(now), numbers_(before.points.size(), none), same_(now.edges.size()) {
+    for (const EdgeId i : same_.ids()) {
+      const auto &old = before.edges[i], &edge = now.edges[i];
+      same_[i] = old.parameters == edge.parameters && old.borrowed == edge.borrowed;
+      if (!same_[i]) continue;
+      for (std::size_t k = 0; k < edge.nodes.size(); ++k) add(old.nodes[k], edge.nodes[k]);
     }
-    if (keep) continue;
+    for (const VertexId i : now.vertex_nodes.ids()) add(before.vertex_nodes[i], now.vertex_nodes[i]);
+  }
+
+  /// Whether the edges of a face have their nodes at the same parameters, and the face uses them in the same
+  /// way.
+  bool keeps(const CadShape& shape, FaceId face) const {
+    const FacePlan &old = before_.plans[face], &plan = now_.plans[face];
+    const std::vector<EdgeId> edges = edges_of(shape.faces[face]);
+    return old.stride == plan.stride && old.is_filled == plan.is_filled &&
+           std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
+             return same_[edge] != 0 && before_.unused_by(face, edge) == now_.unused_by(face, edge);
+           });
+  }
+
+  /// \return whether the node is where it was.
+  bool apply(int& node) const {
+    node = numbers_[node];
+    return node >= 0;
+  }
+
+ private:
+  static constexpr int none = -1, several = -2;
+
+  /// One node may have become several: the ends of an edge that was suppressed before and is kept now.
+  void add(int before, int now) {
+    if (before < 0 || now < 0) return;
+    int& number = numbers_[before];
+    const bool is_one = (number == none || number == now) && before_.points[before] == now_.points[now];
+    number = is_one ? now : several;
+  }
+
+  const BoundaryNodes &before_, &now_;
+  std::vector<int> numbers_;
+  EdgeFlags same_;
+};
+
+/// Keeps the meshes and charts of faces whose boundary is unchanged, with the new numbers of its nodes.
+void keep_unchanged(const CadShape& shape, const BoundaryNodes& nodes, Boundary& boundary, Faces& faces) {
+  if (boundary.nodes.edges.empty()) return;
+  const Renumbering renumbering(boundary.nodes, nodes);
+  for (const FaceId face : faces.meshes.ids()) {
+    FaceRecord& record = faces.records[face];
+    auto& mesh = faces.meshes[face];
+    auto& chart = boundary.charts[face];
+    bool keep = boundary.meshed[face] && renumbering.keeps(shape, face);
+    const auto renumber = [&](int& node) { keep = keep && renumbering.apply(node); };
+    if (mesh) std::for_each(mesh->nodes.begin(), mesh->nodes.end(), renumber);
+    if (chart) for_each_node(chart->boundary, renumber);
+    if (!keep || (chart && chart->kind != record.recipe.chart)) chart.reset();
+    if (keep || !mesh) continue;
     mesh.reset();
-    faces.records[face].given_up = false;  // its boundary is another one now: it is to be meshed again
+    record.given_up = false;  // its boundary is another one now: it is to be meshed again
   }
 }
 
@@ -184,11 +215,12 @@ void sample(const Run& run, Boundary& boundary, Faces& faces) {
   const CadShape& shape = run.prepared.shape;
   BoundaryNodes nodes = sample_edges(shape, run.field, stride(run.prepared.options.strategy), boundary.meshed,
                                      boundary.plan, run.context, &boundary.tables);
-  keep_meshes(shape, boundary, nodes, faces);
+  keep_unchanged(shape, nodes, boundary, faces);
   boundary.nodes = std::move(nodes);
-  boundary.charts.assign(shape.faces.size(), std::nullopt);
   for_each_face_left(run, boundary, faces, Stage::sample, 0.5, [&](FaceId face) {
+    if (boundary.charts[face]) return;
     FaceRecord& record = faces.records[face];
+    ++record.charts;
     FaceChart chart = make_chart(shape, face, boundary.nodes, record.recipe.chart);
     check_sides(shape, face, boundary.nodes, chart, record.looks_at_gaps);
     boundary.charts[face] = std::move(chart);

@@ -33,7 +33,6 @@ void mesh_faces_left(const Run& run, Boundary& boundary, Faces& faces) {
   for_each_face_left(run, boundary, faces, Stage::mesh, 0, [&](FaceId face) {
     FaceRecord& record = faces.records[face];
     if (!boundary.charts[face]) throw FaceProblem(*record.problem);  // no remedy within the rounds
-    const FaceChart chart = std::move(*boundary.charts[face]);
     ExecutionContext share(run.context);
     // The limit does not apply to a face that is meshed again only because of its neighbors' remedies.
     if (record.first_work > 0 && record.before)
@@ -50,12 +49,13 @@ void mesh_faces_left(const Run& run, Boundary& boundary, Faces& faces) {
     try {
       record.recipe.leaves_surface = record.recipe.leaves_surface && !options.strict;
       record.recipe.reach = reach_of(run.prepared, face);
-      faces.meshes[face] = mesh_face(run.prepared.shape, face, chart, boundary.nodes, run.field, options,
-                                     record.recipe, share);
+      faces.meshes[face] = mesh_face(run.prepared.shape, face, *boundary.charts[face], boundary.nodes,
+                                     run.field, options, record.recipe, share);
     } catch (...) {
       count();
       throw;
     }
+    boundary.charts[face].reset();
     count();
   });
 }

@@ -43,7 +43,8 @@ struct Boundary {
       : plan(prepared.plan),
         suppressed(prepared.suppressed),
         meshed(prepared.meshed),
-        to_tips(prepared.shape.faces.size()) {}
+        to_tips(prepared.shape.faces.size()),
+        charts(prepared.shape.faces.size()) {}
   SamplingPlan plan;
   SuppressedFeatures suppressed;
   FaceFlags meshed;   ///< 0 = the face is not to be meshed, or so small that it becomes an edge or node
@@ -51,7 +52,7 @@ struct Boundary {
   EdgeTables tables;
   int rounds = 0;  ///< of sampling
   BoundaryNodes nodes;
-  IdVector<FaceId, std::optional<FaceChart>> charts;  ///< of the faces to be meshed next
+  IdVector<FaceId, std::optional<FaceChart>> charts;  ///< of faces without a mesh; their sides keep apart
 };
 
 /// Runs `work` on each face that has no mesh yet, on all threads, and records failures as problems of the
@@ -59,7 +60,8 @@ struct Boundary {
 void for_each_face_left(const Run& run, const Boundary& boundary, Faces& faces, Stage stage,
                         double done_before, const std::function<void(FaceId)>& work);
 
-/// Samples the edges, keeps the meshes of faces whose boundary stays, and finds the charts of the others.
+/// Samples the edges, keeps the meshes and charts of faces whose boundary stays, and finds the charts of the
+/// others.
 void sample(const Run& run, Boundary& boundary, Faces& faces);
 
 /// Samples until no remedy is left for a face boundary that crosses itself or is crowded.
