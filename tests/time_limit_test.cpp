@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <memory>
+#include <random>
 #include <set>
 #include <string>
 #include <thread>
@@ -18,6 +21,7 @@
 #include "mesher/quadrille.hpp"
 #include "tests/models/thin_models.hpp"
 #include "tests/support/sample_models.hpp"
+#include "tests/support/sheet.hpp"
 
 namespace quadrille {
 namespace {
@@ -222,6 +226,80 @@ TEST(TimeLimit, EndsEveryStage) {
       }
     }
   }
+}
+
+/// A wall of so many rows of bricks, of random lengths.
+CadModel brick_wall(int rows) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.3, 0.3);
+  std::vector<std::vector<double>> joints(rows, {0});  // (rows) ends of the bricks
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i < rows; ++i) joints[row].push_back(i + 0.75 + 0.5 * (row % 2) + shift(random));
+    joints[row].push_back(rows + 1);
+  }
+  std::vector<testing::Polygon> bricks;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i <= rows; ++i) {
+      const double from = joints[row][i], to = joints[row][i + 1];
+      const auto add_joints = [&](int beside, double y) {
+        if (beside < 0 || beside >= rows) return;
+        for (const double x : joints[beside])
+          if (x > from && x < to) bricks.back().push_back({x, y});
+      };
+      bricks.push_back({{to, row + 1.0}, {from, row + 1.0}, {from, 1.0 * row}});
+      add_joints(row - 1, row);
+      bricks.back().push_back({to, 1.0 * row});
+      const auto lower = static_cast<std::ptrdiff_t>(bricks.back().size());
+      add_joints(row + 1, row + 1);
+      std::reverse(bricks.back().begin() + lower, bricks.back().end());
+    }
+  }
+  return testing::sheet(bricks);
+}
+
+/// One brick of a wall can have none of the numbers of segments that are asked for around it. To find which
+/// numbers would do takes long.
+TEST(TimeLimit, EndsTheChoiceOfCounts) {
+  const CadModel wall = brick_wall(50);
+  MeshOptions options;
+  options.strategy = Strategy::direct;
+  options.sizing.size = 0.5;
+  const FaceId brick = FaceId::from_index(wall.face_count() / 2);
+  int segments = 3;
+  for (const CadWire& wire : wall.shape().faces[brick].wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      options.sizing.spacings[coedge.edge.number()] = {.segments = segments};
+      segments = 2;
+    }
+  }
+  // CPU time, for busy machines.
+  std::clock_t started = 0, limited = 0, whole = 0;
+  ExecutionContext* current = nullptr;
+  const auto run = [&] {
+    started = limited = 0;
+    ExecutionContext context(1, [&](std::string_view stage, double) {
+      if (stage != "sample") return true;
+      if (started == 0) started = std::clock();
+      if (whole > 0 && limited == 0 && std::clock() - started > whole / 2) {
+        limited = std::clock();
+        current->limit_time(1e-6);
+      }
+      return true;
+    });
+    current = &context;
+    context.ask_every(milliseconds(0));
+    try {
+      mesh(wall, options, context);
+    } catch (const Error& error) {
+      return error.subject();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(run(), "segments");
+  whole = std::clock() - started;
+  EXPECT_EQ(run(), ExecutionContext::time_subject);
+  EXPECT_LT(limited - started, whole * 5 / 8) << "nothing looks at the time";
+  EXPECT_LT(std::clock() - limited, whole / 2);
 }
 
 /// With options.partial the faces that were done when the time was over are delivered.

@@ -2,6 +2,7 @@
 
 #include "geometry/base/isolated_answer.hpp"
 
+#include <new>
 #include <sstream>
 #include <string_view>
 
@@ -12,8 +13,17 @@ namespace quadrille {
 namespace {
 
 /// The kind of a child's answer, which it writes at the very end. A child that crashes does not get there.
-enum Answer : char { result = 'R', failure_sentence = 'F', usage_sentence = 'U' };
-constexpr std::string_view end_of_answer = "\nquadrille has answered: ";
+enum Answer : char {
+  result = 'R',
+  failure_sentence = 'F',
+  usage_sentence = 'U',
+  no_memory = answer_without_memory.back()
+};
+constexpr std::string_view end_of_answer = answer_without_memory.substr(0, answer_without_memory.size() - 1);
+
+std::string sentence_about(const std::string& subject, const std::exception& problem) {
+  return subject + ": " + sentence_of(problem);
+}
 
 Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work, std::ostream& out) {
   try {
@@ -23,7 +33,7 @@ Answer answer(const std::string& subject, const std::function<void(std::ostream&
     out << error.what();
     return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
   } catch (const std::exception& problem) {
-    out << subject << ": " << sentence_of(problem);
+    out << sentence_about(subject, problem);
   }
   return failure_sentence;
 }
@@ -43,6 +53,7 @@ std::string result_of(const IsolatedWork& options, std::string bytes) {
   if (all.size() < length || !all.substr(all.size() - length).starts_with(end_of_answer))
     throw failure(options.subject, options.crashed);
   const char given = bytes.back();
+  if (given == no_memory) throw failure(options.subject, sentence_about(options.subject, std::bad_alloc()));
   bytes.resize(bytes.size() - length);
   if (given == failure_sentence) throw failure(options.subject, bytes);
   if (given == usage_sentence) throw usage_error(options.subject, bytes);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "geometry/base/isolated_work.hpp"
 
@@ -14,6 +15,9 @@ namespace quadrille {
 /// that crashes does not get to. Throws nothing. \param subject of sentences without one.
 void write_answer(const std::string& subject, const std::function<void(std::ostream&)>& work,
                   std::ostream& out);
+
+/// What a child that has no memory left writes last, without taking any, whatever it has written before.
+inline constexpr std::string_view answer_without_memory = "\nquadrille has answered: M";
 
 /// What the child has made, from all that it wrote. Throws the Error that the child has thrown; Error
 /// (failure) if the end mark is missing.

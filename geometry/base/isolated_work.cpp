@@ -80,15 +80,26 @@ class Child {
   pid_t id_;
 };
 
+int answering_pipe = -1;  ///< of a child
+
+/// Lack of memory ends a child at once: libraries swallow the exception and go on with less, or wait forever
+/// for what it left half made, as oneTBB does.
+[[noreturn]] void end_without_memory() {
+  [[maybe_unused]] const ssize_t written =
+      ::write(answering_pipe, answer_without_memory.data(), answer_without_memory.size());
+  ::_exit(1);
+}
+
 /// Detaches the child from the program's handlers and standard streams. It ends with its parent, even
 /// if the parent is killed.
-void become_worker(pid_t parent) {
+void become_worker(pid_t parent, int pipe) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // the parent had already been killed
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGALRM, SIGPIPE})
     std::signal(signal, SIG_DFL);
   // The parent tells what happens here, and the unfinished files are its own.
-  std::set_new_handler(nullptr);
+  answering_pipe = pipe;
+  std::set_new_handler(end_without_memory);
   std::set_terminate([] { ::_exit(1); });
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches the whole group; the parent decides
   const rlimit no_core{0, 0};
@@ -155,7 +166,7 @@ std::string run_in_child(const IsolatedWork& options, const std::function<void(s
   const pid_t parent = ::getpid(), id = ::fork();
   if (id < 0) throw no_process(options.subject);
   if (id == 0) {
-    become_worker(parent);
+    become_worker(parent, told);
     heard.close();  // otherwise a write to a full pipe would wait for this process itself to read
     work_as_child(options, work, told);
   }

@@ -181,12 +181,12 @@ void tell_crashes() {
 }  // namespace
 
 /// Takes the place of the C++ runtime's own function in all libraries: what is thrown for lack of memory may
-/// not come from operator new, which has a handler. Children that report to this process have none.
+/// not come from operator new, which calls the handler, of this process or of a child.
 extern "C" [[gnu::visibility("default")]] void __cxa_throw(  // NOLINT(bugprone-reserved-identifier)
     void* exception, std::type_info* type, void (*destroy)(void*)) {
-  if ((*type == typeid(std::bad_alloc) || *type == typeid(Standard_OutOfMemory)) &&
-      std::get_new_handler() == end_without_memory)
-    end_without_memory();
+  const std::new_handler handler = std::get_new_handler();
+  if ((*type == typeid(std::bad_alloc) || *type == typeid(Standard_OutOfMemory)) && handler != nullptr)
+    handler();
   static const auto next = reinterpret_cast<decltype(&__cxa_throw)>(::dlsym(RTLD_NEXT, "__cxa_throw"));
   next(exception, type, destroy);
   std::abort();

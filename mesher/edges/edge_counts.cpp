@@ -136,12 +136,14 @@ class CountChooser {
   /// What to do about a face that stays odd. \param odd number of faces that do
   std::string numbers_that_work(FaceId face, std::size_t odd, const std::string& names) {
     std::vector<std::string> ways;
-    for (const EdgeId chord : fixed_.ids()) {
+    std::set<EdgeId> chords;
+    for (const EdgeId edge : targets_.fixed.ids())
+      if (targets_.fixed[edge] > 0 && is_on(edge, sides_[face])) chords.insert(chords_.of(edge));
+    for (const EdgeId chord : chords) {
       const auto is_here = [&](EdgeId edge) {
         return chords_.of(edge) == chord && is_on(edge, sides_[face]);
       };
-      const std::string edges = chords_.of(chord) == chord ? fixed_edges(is_here) : "";
-      if (edges.empty()) continue;
+      const std::string edges = fixed_edges(is_here);
       const int fixed = fixed_[chord];
       fixed_[chord] = fixed + units_[chord];
       const std::vector<FaceId> left = make_faces_even();

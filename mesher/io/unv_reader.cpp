@@ -60,7 +60,7 @@ class UnvReader {
     text = trimmed(text);
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end == text.data() || (*end != ' ' && end != text.data() + text.size()))
+    if (error != std::errc() || end == text.data() || (end != text.data() + text.size() && *end != ' '))
       throw cursor_.error_before(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
     return value;
   }

@@ -43,6 +43,8 @@ TEST(IsolatedAnswer, BringsResultsAndErrors) {
   EXPECT_EQ(taken(written([](std::ostream&) { throw std::bad_alloc(); })),
             "failure: part.step: there is not enough memory for it (a damaged file may promise more than it "
             "holds)");
+  EXPECT_EQ(taken("part of a shape" + std::string(answer_without_memory)),
+            taken(written([](std::ostream&) { throw std::bad_alloc(); })));
   EXPECT_EQ(taken(written([](std::ostream&) { throw std::runtime_error("why"); })),
             "failure: part.step: why");
 }

@@ -1,4 +1,4 @@
-/// Work in a child process: it ends with the process that wants it.
+/// Work in a child process: it ends with the process that wants it, and where its memory does.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,9 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
+#include <new>
 #include <string>
 #include <thread>
 
+#include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "tests/support/process.hpp"
 
@@ -69,6 +72,31 @@ TEST(IsolatedWork, EndsWhereItsParentIsKilled) {
     out << std::string(8'000'000, 'a');  // far more than a pipe holds
     std::this_thread::sleep_for(std::chrono::minutes(9));
   }));
+}
+
+/// Libraries swallow the exception, or wait forever for what it left half made.
+TEST(IsolatedWork, EndsWhereMemoryDoes) {
+  IsolatedWork options;
+  options.subject = "part.step";
+  options.crashed = "crashed";
+  options.too_long = "too long";
+  options.time_limit = 20;
+  volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max();
+  std::string sentence;
+  try {
+    isolated_bytes(options, [&]() -> std::string {
+      try {
+        ::operator delete(::operator new(too_much));
+      } catch (const std::bad_alloc&) {
+        std::this_thread::sleep_for(std::chrono::minutes(9));
+      }
+      return "done";
+    });
+  } catch (const Error& error) {
+    sentence = error.what();
+  }
+  EXPECT_EQ(sentence,
+            "part.step: there is not enough memory for it (a damaged file may promise more than it holds)");
 }
 
 }  // namespace

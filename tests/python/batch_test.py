@@ -427,15 +427,16 @@ class BatchTest(unittest.TestCase):
     def test_interrupts(self):
         """Ctrl-C at any time: one sentence, exit code 130, no child is left, and the next run continues."""
         arguments = self.batch_of([b"a.brep", b"slow.brep", b"z.brep"])
-        early = self.folder.parent / "early"
-        early.mkdir()
-        (early / "csv.py").write_text("import os, signal, time\nos.kill(os.getpid(), signal.SIGINT)\ntime.sleep(9)\n")
+        early = []  # in place of the first module imported at the start, and of one imported later
+        for name in ("signal", "csv"):
+            early.append(self.folder.parent / f"early_{name}")
+            early[-1].mkdir()
+            (early[-1] / f"{name}.py").write_text("import os, time\nos.kill(os.getpid(), 2)\ntime.sleep(9)\n")
         pid_file = self.folder.parent / "slow.pid"
-        for how in ("at the start", "process", "group"):
-            process = self.program(*arguments, "--quiet", "--no-pictures", "--workers", "1",
-                                   path=[early] if how == "at the start" else ())
+        for how in (*early, "process", "group"):
+            process = self.program(*arguments, "--quiet", "--no-pictures", "--workers", "1", path=[how] if how in early else ())
             child = None
-            if how != "at the start":
+            if how not in early:
                 deadline = time.monotonic() + 30
                 while not pid_file.exists() and time.monotonic() < deadline:
                     time.sleep(0.02)

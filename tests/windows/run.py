@@ -36,8 +36,9 @@ class Table:
         self.failed = 0
 
     def row(self, what, good, told):
-        self.failed += not good
-        print(f"| {what} | {'yes' if good else '**no**'} | {told} |", flush=True)
+        """`good` is None where it was not tried."""
+        self.failed += good is not None and not good
+        print(f"| {what} | {'not tried' if good is None else 'yes' if good else '**no**'} | {told} |", flush=True)
 
 
 class Program:
@@ -174,9 +175,13 @@ def large(scratch, out):
 
 def ends(table, windows, scratch):
     start = time.time()
+    windows.run("--version")
+    starting = time.time() - start  # of wine and of the program, before it looks at the clock
+    start = time.time()
     code, _, line, _ = windows.run(*large(scratch, "limit.inp"), "--time-limit", 2)
-    table.row("a time limit of 2 s", code == 1 and "time limit" in line and time.time() - start < 8
-              and not (scratch / "limit.inp").exists(), f"{line} ({time.time() - start:.1f} s)")
+    seconds = time.time() - start - starting
+    table.row("a time limit of 2 s", code == 1 and "time limit" in line and seconds < 5 and not (scratch / "limit.inp").exists(),
+              f"{line} ({seconds:.1f} s, and {starting:.1f} s to start under wine)")
 
     process = windows.start([*large(scratch, "input.inp"), "--end-with-input"], stdin=subprocess.PIPE)
     time.sleep(3)
@@ -253,7 +258,7 @@ def places(table, windows, scratch):
     readonly.mkdir()
     readonly.chmod(0o555)
     if os.geteuid() == 0:
-        table.row("a folder that cannot be written to", True, "not tried: root may write everywhere")
+        table.row("a folder that cannot be written to", None, "root may write everywhere")
     else:
         code, _, line, _ = windows.run("mesh", SAMPLE / "bracket.step", "-o", readonly / "x.inp")
         table.row("a folder that cannot be written to", code in (1, 2) and line.startswith("quadrille: "), line)
