@@ -35,7 +35,8 @@ std::vector<Vector3> widest_loop(const CadFace& face, const BoundaryNodes& nodes
 }
 
 FaceChart chart_of(const CadShape& shape, FaceId face, const BoundaryNodes& nodes, ChartKind kind) {
-  FaceChart chart{.kind = kind};
+  FaceChart chart;
+  chart.kind = kind;
   if (kind == ChartKind::new_curves)
     chart.other = std::make_shared<const CadFace>(with_new_curves(shape.faces[face]));
   const CadFace& cad_face = chart.other ? *chart.other : shape.faces[face];
