@@ -205,13 +205,16 @@ struct Meshed {
 /// Adds a note on quads outside the limits and short sides, with what forces most of them.
 void tell_poor_quads(const ShellMesh& mesh) {
   if (mesh.poor_quads.empty()) return;
-  int quads = 0;
-  for (const auto& found : mesh.poor_quads) quads += found.quads;
+  int quads = 0, forced = 0;
+  for (const auto& found : mesh.poor_quads) {
+    quads += found.quads;
+    if (found.is_forced()) forced += found.quads;
+  }
   const auto& most = mesh.poor_quads.front();
   say("note: {} quads are outside the usual limits (warp is not counted) or have sides under half the least "
-      "size, "
-      "most of them at {}{} ({}): {}; --report lists all",
-      quads, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+      "size, {} of them forced by edges, corners and widths of the part; most of all at {}{} ({}): {}; "
+      "--report lists all",
+      quads, forced, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
 }
 
 /// Writes the report, the warnings to stderr and the tables to stdout, if requested.

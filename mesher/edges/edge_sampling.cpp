@@ -185,7 +185,7 @@ class EdgeSampler {
         is_finer = true;
       }
       double& wanted = targets_.wanted[i];
-      wanted = tables_[i].total() / result_.stride;
+      wanted = std::min(tables_[i].total(), most_at_least_size(i, 1)) / result_.stride;
       // An edge has at least one segment, which the factor multiplies.
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
@@ -209,6 +209,16 @@ class EdgeSampler {
     }
   }
 
+  /// How many times `unit` segments an edge has room for where the least size limits them, or infinity: the
+  /// count is rounded down there, since with one more all would be shorter. Sizes that are given by name may
+  /// be below the least.
+  double most_at_least_size(EdgeId i, int unit) const {
+    constexpr double rounding = 1 + 1e-6;
+    const double room = rounding * shape_.edges[i].length / field_.size_min();
+    return tables_[i].total() > room ? std::numeric_limits<double>::infinity()
+                                     : std::max(1.0, std::floor(room / unit));
+  }
+
   /// Sets the least count between grids, and raises both least counts on arcs.
   void raise_least(EdgeId i, double turning, bool needs_least) {
     const double wanted = targets_.wanted[i];
@@ -221,7 +231,8 @@ class EdgeSampler {
     if (turning <= least_arc) return;
     // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
     constexpr double nearly = 0.25;
-    least = std::max(least, to_int(std::ceil(wanted - nearly)));
+    least =
+        std::max(least, to_int(std::min(std::ceil(wanted - nearly), most_at_least_size(i, result_.stride))));
     of_grids = std::max(of_grids, to_int(std::ceil(result_.stride * wanted - nearly)));
   }
 

@@ -115,6 +115,7 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
       const Waist waist = waist_between(shape, ways[k]);
       across.narrowest *= waist.narrowest;
       across.length *= waist.mean;
+      if (in_narrowest * aspect * across.mean() < shortest) continue;  // out of reach
       const double at_most = std::max(in_narrowest * aspect * across.least(), shortest);
       const double longest = std::max(aspect * across.mean(), shortest);
       for (const FacingPair& pair : ways[k])

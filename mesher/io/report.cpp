@@ -195,6 +195,7 @@ json poor_quads_to_json(const ShellMesh& mesh) {
     return json{{"name", name_of_entity(found.dimension, found.number)},
                 {"quads", found.quads},
                 {"shortest", found.shortest},
+                {"forced", found.is_forced()},
                 {"cause", names[static_cast<std::size_t>(found.cause)]},
                 {"why", found.why}};
   });

@@ -144,6 +144,9 @@ struct ShellMesh {
     int quads = 0;              ///< number of quads
     double shortest = 0;        ///< shortest side of these, millimeters
     std::string why;            ///< what is small or sharp there
+
+    /// Whether the part, not the mesher, is the cause.
+    bool is_forced() const { return cause != Cause::none; }
   };
 
   /// A set of entities that has a name or a number of its own in the file that the mesh was read from.

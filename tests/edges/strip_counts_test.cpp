@@ -86,6 +86,20 @@ TEST(StripCounts, BendsHaveRowsOfLongQuads) {
   EXPECT_GT(quadrille::mesh(sheet, options, context).quads.size(), 1.5 * area / (size * size));
 }
 
+/// A bend whose arc has room for one segment and a half of the least size gets one row.
+TEST(StripCounts, RowsOfABendAreNotBelowTheLeastSize) {
+  for (const double radius : {2.2, 2.5, 3.2, 4.5}) {
+    MeshOptions options;
+    options.sizing.size = 8;
+    options.sizing.size_min = 2;
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(bent_sheet(radius, 40, 120), options, context);
+    for (const auto& quad : mesh.quads)
+      for (int k = 0; k < 4; ++k)
+        EXPECT_GE((mesh.points[quad[(k + 1) % 4]] - mesh.points[quad[k]]).norm(), 0.95 * 2) << radius;
+  }
+}
+
 /// However narrow a strip is, as long as it is not below the reach.
 TEST(StripCounts, NoQuadOfAStripIsTooLong) {
   for (const double width : {0.6, 0.8, 1.3, 2.1, 3.4, 5.5}) {
