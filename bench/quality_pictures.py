@@ -46,11 +46,11 @@ def shares_of(points: np.ndarray, quads: np.ndarray) -> Meshed:
     return Meshed(points, quads, np.max(shares, axis=0), quality.q)
 
 
-def mesh_by_quadrille(command: str, part: Path, size: float, folder: Path) -> Optional[Meshed]:
-    """Meshes with the command, as in the README."""
+def mesh_by_quadrille(command: str, part: Path, size: float, folder: Path, options: List[str]) -> Optional[Meshed]:
+    """Meshes with the command, as in the README, and with further options."""
     out = folder / "quadrille.msh"
     subprocess.run([command, "mesh", str(part), "-o", str(out), "--size", repr(size), "--size-min", repr(size / 8), "--threads", "1",
-                    "--quiet"], check=True)
+                    "--quiet", *options], check=True)
     return read(out)
 
 
@@ -143,21 +143,23 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("parts", nargs="+", type=Path)
     parser.add_argument("--quadrille", default="quadrille", help="the command")
+    parser.add_argument("--also", action="append", default=[], help='NAME=OPTIONS: Quadrille with these, as "squares=--aspect 1"')
     parser.add_argument("--gmsh", action="append", default=[], help="NAME=COMMAND, once for each version")
     parser.add_argument("--div", type=float, default=60, help="the size is the diagonal over this")
     parser.add_argument("-o", "--out", type=Path, required=True, help=".png")
     arguments = parser.parse_args()
     peers: List[List[str]] = [text.split("=", 1) for text in arguments.gmsh]
+    ways: List[List[str]] = [["Quadrille", ""], *(text.split("=", 1) for text in arguments.also)]
     rows: Dict[str, Dict[str, Optional[Meshed]]] = {}
     with tempfile.TemporaryDirectory() as folder:
         for part in arguments.parts:
             size = quadrille.read(str(part)).diagonal / arguments.div
-            meshes = {"Quadrille": mesh_by_quadrille(arguments.quadrille, part, size, Path(folder))}
+            meshes = {name: mesh_by_quadrille(arguments.quadrille, part, size, Path(folder), options.split()) for name, options in ways}
             for name, command in peers:
                 meshes[name] = mesh_by_gmsh(command, part, size, Path(folder))
             rows[part.stem] = meshes
     print("| part | " + " | ".join(f"{name}: quads, q, outside" for name in next(iter(rows.values()))) + " |")
-    print("| --- |" + " --- |" * (1 + len(peers)))
+    print("| --- |" + " --- |" * (len(ways) + len(peers)))
     for part, meshes in rows.items():
         cells = ["no mesh" if m is None else f"{len(m.quads)}, {m.q.mean():.3f}, {100 * (m.shares > 1).mean():.2f} %" for m in meshes.values()]
         print(f"| {part} | " + " | ".join(cells) + " |")
