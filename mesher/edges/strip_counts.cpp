@@ -36,10 +36,6 @@ struct Waist {
   double narrowest = 1, mean = 1;
 };
 
-double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
-  return (a + nearest_share(a, b, point) * (b - a) - point).norm();
-}
-
 /// \param along the sides from end to end, cut into pairs
 Waist waist_between(const CadShape& shape, std::span<const FacingPair> along) {
   constexpr int pieces_of_side = 16;
