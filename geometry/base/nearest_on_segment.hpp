@@ -14,4 +14,8 @@ inline double nearest_share(const Vector3& a, const Vector3& b, const Vector3& p
   return square > 0 ? std::clamp((point - a).dot(way) / square, 0.0, 1.0) : 0;
 }
 
+inline double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
+  return (a + nearest_share(a, b, point) * (b - a) - point).norm();
+}
+
 }  // namespace quadrille

@@ -33,6 +33,13 @@ class Chords {
 /// Places of nodes, as shares of the edge's length from its start.
 using EdgeShares = IdVector<EdgeId, std::vector<double>>;
 
+/// Where the nodes of all edges lie.
+struct PlannedSpacing {
+  EdgeShares shares;  ///< see space_chords()
+  /// (representatives) 1 = users prescribe the number of segments on the chord, or its spacing.
+  EdgeFlags divided, kept;
+};
+
 /// Spaces the nodes of the chords. All members have their nodes at the same shares of their lengths, and at
 /// each place the member with the finest spacing decides. A side that is a single edge takes over the spacing
 /// of the edges opposite if these are several.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 
@@ -28,195 +27,180 @@ constexpr double largest_ratio = 2;  // between wanted counts of the sides of a 
 constexpr double largest_ratio_of_sums = 1.3;
 constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
-class CountChooser {
- public:
-  CountChooser(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
-               FaceOutlines& sides)
-      : shape_(shape), targets_(targets), tiny_(tiny), sides_(sides), chords_(IdVector<EdgeId, double>()) {
-    for (const EdgeId edge : targets.wanted.ids())
-      effective_.push_back(std::max(targets.wanted[edge], 1.0 * targets.least[edge]));
-  }
+bool has_sums(const FaceSides& sides) {
+  return std::any_of(sides.facing.begin(), sides.facing.end(),
+                     [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
+}
 
-  EdgeCounts run() {
-    tie_chords();
-    std::vector<FaceId> odd = balance_faces();
-    if (!odd.empty()) {
-      // Usually edges of three or more faces. First drop faces with sides of several edges, then all.
-      for (const FaceId face : sides_.ids()) {
-        if (has_sums(sides_[face])) sides_[face].drop_facing();
-      }
-      odd = make_faces_even();
+template <class Visit>
+void for_each_edge(const FaceSides& sides, Visit&& visit) {
+  for (const FacingPair& pair : sides.facing) {
+    for (const FaceSide* side : {&pair.first, &pair.second}) {
+      for (const SideEdge& edge : *side) visit(edge.edge);
     }
-    if (!odd.empty()) {
-      for (const FaceId face : sides_.ids()) sides_[face].drop_facing();
-      tie_chords();
-      odd = make_faces_even();
-    }
-    hold_fixed(odd);
-    EdgeCounts result{IdVector<EdgeId, int>(effective_.size()), chords_};
-    for (const EdgeId edge : effective_.ids()) {
-      const EdgeId chord = chords_.of(edge);
-      if (targets_.least[edge] == 0) continue;
-      result.counts[edge] = fixed_[chord] > 0 ? fixed_[chord] : units_[chord] * variable(chord).value;
-    }
-    return result;
   }
+}
 
- private:
-  static int rounded(double value) { return round_to_int(value); }
+bool is_on(EdgeId edge, const FaceSides& sides) {
+  bool found = std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end();
+  for_each_edge(sides, [&](EdgeId other) { found |= other == edge; });
+  return found;
+}
 
-  static bool has_sums(const FaceSides& sides) {
-    return std::any_of(sides.facing.begin(), sides.facing.end(),
-                       [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
-  }
+/// Chords with the numbers that users prescribe for them.
+struct FixedChords {
+  Chords chords;
+  IdVector<EdgeId, int> fixed;  // (representatives) segments of the final mesh; 0 = any number
 
-  double sum_of(const FaceSide& side) const {
-    double sum = 0;
-    for (const SideEdge& edge : side) sum += effective_[edge.edge];
-    return sum;
-  }
-
-  bool has_fixed(const FacingPair& pair) const {
-    const auto is_fixed = [&](const SideEdge& edge) { return fixed_[chords_.of(edge.edge)] > 0; };
-    return std::any_of(pair.first.begin(), pair.first.end(), is_fixed) ||
-           std::any_of(pair.second.begin(), pair.second.end(), is_fixed);
-  }
-
-  bool is_far_off(const FacingPair& pair) const {
-    const auto [low, high] = std::minmax({sum_of(pair.first), sum_of(pair.second)});
-    const bool is_sum = pair.first.size() + pair.second.size() > 2;
-    return high > (has_fixed(pair) ? largest_fixed_ratio
-                   : is_sum        ? largest_ratio_of_sums
-                                   : largest_ratio) *
-                      low;
-  }
+  int fixed_of(EdgeId edge) const { return fixed[chords.of(edge)]; }
 
   /// Merges two chords, unless users prescribe different numbers for them.
   bool tie(const SideEdge& a, const SideEdge& b, double ratio) {
-    const int one = fixed_[chords_.of(a.edge)], other = fixed_[chords_.of(b.edge)];
+    const int one = fixed_of(a.edge), other = fixed_of(b.edge);
     if (one > 0 && other > 0 && one != other) return false;
-    if (!chords_.tie(a, b, std::max(one, other) > 0 ? std::max(ratio, largest_fixed_ratio) : ratio))
+    if (!chords.tie(a, b, std::max(one, other) > 0 ? std::max(ratio, largest_fixed_ratio) : ratio))
       return false;
-    fixed_[chords_.of(a.edge)] = std::max(one, other);
+    fixed[chords.of(a.edge)] = std::max(one, other);
     return true;
   }
+};
 
-  /// Names the included edges whose numbers are fixed, as "Edge4, Edge7".
-  template <class Includes>
-  std::string fixed_edges(Includes&& includes) const {
-    std::set<int> numbers;  // the pieces of an edge that a seam divides have one number
-    for (const EdgeId edge : targets_.fixed.ids()) {
-      if (targets_.fixed[edge] > 0 && includes(edge)) numbers.insert(shape_.edges[edge].number);
+/// Whether the wanted counts of two facing sides differ too much for one number. \param effective wanted
+/// count, at least the least one
+bool is_far_off(const FixedChords& chords, const IdVector<EdgeId, double>& effective,
+                const FacingPair& pair) {
+  double first = 0, second = 0;
+  bool has_fixed = false;
+  const auto add = [&](const FaceSide& side, double& sum) {
+    for (const SideEdge& edge : side) {
+      sum += effective[edge.edge];
+      has_fixed |= chords.fixed_of(edge.edge) > 0;
     }
-    return numbers.empty() ? "" : fmt::format("Edge{}", fmt::join(numbers, ", Edge"));
-  }
+  };
+  add(pair.first, first);
+  add(pair.second, second);
+  const auto [low, high] = std::minmax({first, second});
+  const bool is_sum = pair.first.size() + pair.second.size() > 2;
+  return high > (has_fixed ? largest_fixed_ratio : is_sum ? largest_ratio_of_sums : largest_ratio) * low;
+}
 
-  /// Throws if fixed numbers cannot be kept. \param odd faces that stay odd.
-  void hold_fixed(const std::vector<FaceId>& odd) {
-    for (const EdgeId chord : fixed_.ids()) {
-      const int fixed = fixed_[chord];
-      if (chords_.of(chord) != chord || fixed % units_[chord] == 0) continue;
-      throw usage_error(
-          "segments", fmt::format("`segments` gives {} to {}, and a face there that is not a grid needs an "
-                                  "even number: use {}, or `strategy` direct",
-                                  fixed, fixed_edges([&](EdgeId edge) { return chords_.of(edge) == chord; }),
-                                  fixed > 1 ? fmt::format("{} or {}", fixed - 1, fixed + 1) : "2"));
-    }
-    for (const FaceId face : odd) {
-      const std::string names = fixed_edges([&](EdgeId edge) { return is_on(edge, sides_[face]); });
-      if (names.empty()) continue;
+/// Ties edges with the same nodes, and edges that face each other. \param sides see choose_counts()
+FixedChords tie_chords(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
+                       FaceOutlines& sides) {
+  IdVector<EdgeId, double> effective;  // wanted count, at least the least one
+  for (const EdgeId edge : targets.wanted.ids())
+    effective.push_back(std::max(targets.wanted[edge], 1.0 * targets.least[edge]));
+  FixedChords chords{Chords(effective), targets.fixed};
+  chords.fixed.resize(effective.size());
+  const auto unite = [&](const SideEdge& a, const SideEdge& b) {
+    if (!chords.tie(a, b, std::numeric_limits<double>::infinity()))
       throw usage_error("segments",
-                        fmt::format("`segments` leaves Face{} with {} around it: {}", face.number(),
-                                    targets_.stride == 2 ? "a number of segments that is no multiple of four"
-                                                         : "an odd number of segments",
-                                    numbers_that_work(face, odd.size(), names)));
-    }
+                        fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
+                                    "have the same nodes",
+                                    shape.edges[a.edge].number, shape.edges[b.edge].number));
+  };
+  for (const EdgeId edge : effective.ids()) {
+    const EdgeId same = tiny.edges[edge];
+    if (same != edge) unite({same, true}, {edge, !tiny.reversed_edges[edge]});
   }
-
-  /// What to do about a face that stays odd. \param odd number of faces that do
-  std::string numbers_that_work(FaceId face, std::size_t odd, const std::string& names) {
-    std::vector<std::string> ways;
-    std::set<EdgeId> chords;
-    for (const EdgeId edge : targets_.fixed.ids())
-      if (targets_.fixed[edge] > 0 && is_on(edge, sides_[face])) chords.insert(chords_.of(edge));
-    for (const EdgeId chord : chords) {
-      const auto is_here = [&](EdgeId edge) {
-        return chords_.of(edge) == chord && is_on(edge, sides_[face]);
-      };
-      const std::string edges = fixed_edges(is_here);
-      const int fixed = fixed_[chord];
-      fixed_[chord] = fixed + units_[chord];
-      const std::vector<FaceId> left = make_faces_even();
-      fixed_[chord] = fixed;
-      if (left.size() >= odd || std::find(left.begin(), left.end(), face) != left.end()) continue;
-      const int all = segments_of_whole(is_here), less = all - units_[chord], more = all + units_[chord];
-      const std::string way =
-          less > 0 ? fmt::format("{} or {} on {}", less, more, edges) : fmt::format("{} on {}", more, edges);
-      // Several pieces of an edge give the same.
-      if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
+  for (const auto& [a, b] : targets.tied) unite(a, b);
+  for (const FaceId face : sides.ids()) {
+    const auto& facing = sides[face].facing;
+    bool fits = std::none_of(facing.begin(), facing.end(),
+                             [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
+    for (const FacingPair& pair : facing) {
+      if (fits && pair.first.size() == 1 && pair.second.size() == 1)
+        fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
     }
-    if (ways.empty()) return "change the numbers on two or more of " + names;
-    return fmt::format("use {}", fmt::join(ways, ", or "));
+    if (!fits) sides[face].drop_facing();
   }
+  return chords;
+}
 
-  /// The number that users prescribe for the first of the edges included, with all its pieces.
-  template <class Includes>
-  int segments_of_whole(Includes&& includes) const {
-    const auto ids = targets_.fixed.ids();
-    const auto first = std::find_if(ids.begin(), ids.end(), includes);
-    int sum = 0;
-    for (const EdgeId edge : ids)
-      if (shape_.edges[edge].number == shape_.edges[*first].number) sum += targets_.fixed[edge];
-    return sum;
-  }
+/// The change by one, 1 or -1, that fits the wanted count better.
+int change_of(const BalanceProblem::Variable& variable) {
+  return variable.wanted >= variable.value || variable.value <= variable.least ? 1 : -1;
+}
 
-  static bool is_on(EdgeId edge, const FaceSides& sides) {
-    const auto is_it = [&](const SideEdge& side) { return side.edge == edge; };
-    return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end() ||
-           std::any_of(sides.facing.begin(), sides.facing.end(), [&](const FacingPair& pair) {
-             return std::any_of(pair.first.begin(), pair.first.end(), is_it) ||
-                    std::any_of(pair.second.begin(), pair.second.end(), is_it);
-           });
-  }
+double cost_of_change(const BalanceProblem::Variable& variable) {
+  const double ratio = (variable.value + change_of(variable)) / std::max(variable.wanted, 0.5);
+  return std::abs(std::log(ratio)) + 1e-6;
+}
 
-  void tie_chords() {
-    chords_ = Chords(effective_);
-    fixed_ = targets_.fixed;
-    fixed_.resize(effective_.size());
-    const auto unite = [&](const SideEdge& a, const SideEdge& b) {
-      if (!tie(a, b, std::numeric_limits<double>::infinity()))
-        throw usage_error("segments",
-                          fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
-                                      "have the same nodes",
-                                      shape_.edges[a.edge].number, shape_.edges[b.edge].number));
-    };
-    for (const EdgeId edge : effective_.ids()) {
-      const EdgeId same = tiny_.edges[edge];
-      if (same != edge) unite({same, true}, {edge, !tiny_.reversed_edges[edge]});
-    }
-    for (const auto& [a, b] : targets_.tied) unite(a, b);
-    for (const FaceId face : sides_.ids()) {
-      const auto& facing = sides_[face].facing;
-      bool fits = std::none_of(facing.begin(), facing.end(),
-                               [&](const FacingPair& pair) { return is_far_off(pair); });
-      for (const FacingPair& pair : facing) {
-        if (fits && pair.first.size() == 1 && pair.second.size() == 1)
-          fits = tie(pair.first[0], pair.second[0], largest_ratio);
-      }
-      if (!fits) sides_[face].drop_facing();
-    }
+/// Numbers of segments for all chords.
+struct BalancedCounts {
+  std::vector<FaceId> odd;       // faces that stay odd
+  IdVector<EdgeId, int> units;   // (representatives) segments of the final mesh per unit of the count
+  IdVector<EdgeId, int> values;  // (representatives) in units
+};
+
+/// The counts as a problem with a variable for each chord, and a rule for each face and each pair of sides.
+class CountProblem {
+ public:
+  /// \param sides see choose_counts()
+  CountProblem(const CountTargets& targets, const FixedChords& chords, FaceOutlines& sides)
+      : targets_(targets), chords_(chords), sides_(sides) {
     start_values();
+  }
+
+  /// Balances all faces. Drops faces whose facing sides cannot have equal counts until the others can.
+  BalancedCounts balance_faces() && {
+    std::vector<FaceId> odd;
+    for (bool dropped = true; dropped;) {
+      targets_.check();
+      set_up_rules();
+      dropped = false;
+      odd.clear();
+      for (const int node : balance(problem_, targets_.check)) {
+        const FaceId face = faces_of_nodes_[node];
+        if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face);
+        if (sides_[face].facing.empty()) continue;
+        sides_[face].drop_facing();
+        dropped = true;
+      }
+    }
+    return counts(std::move(odd));
+  }
+
+  /// Balances faces by parity alone.
+  BalancedCounts make_faces_even() && {
+    set_up_rules();
+    IdVector<EdgeId, ParityEdge> edges(problem_.variables.size());
+    FaceFlags odd(sides_.size());
+    for (const EdgeId chord : edges.ids()) {
+      const auto& variable = this->variable(chord);
+      edges[chord].cost = variable.fixed ? std::numeric_limits<double>::infinity()
+                                         : variable.weight * cost_of_change(variable);
+      for (const auto& [node, coefficient] : variable.terms) {
+        const FaceId face = faces_of_nodes_[node];
+        edges[chord].faces.push_back(face);
+        if (variable.value % 2 != 0) odd[face] ^= 1;
+      }
+    }
+    std::vector<FaceId> left;
+    const EdgeFlags change = make_even(edges, odd, left, targets_.check);
+    for (const EdgeId chord : edges.ids()) {
+      if (change[chord]) variable(chord).value += change_of(variable(chord));
+    }
+    return counts(std::move(left));
+  }
+
+ private:
+  BalancedCounts counts(std::vector<FaceId> odd) {
+    BalancedCounts result{std::move(odd), std::move(units_), {}};
+    for (const auto& variable : problem_.variables) result.values.push_back(variable.value);
+    return result;
   }
 
   /// Starts each chord near the mean count of its members, in segments of the mesh that is recombined.
   void start_values() {
-    units_.assign(effective_.size(), targets_.stride);
-    members_.assign(effective_.size(), {});
-    for (const EdgeId edge : effective_.ids()) {
-      if (targets_.least[edge] != 0) members_[chords_.of(edge)].push_back(edge);
+    units_.assign(chords_.fixed.size(), targets_.stride);
+    members_.assign(chords_.fixed.size(), {});
+    for (const EdgeId edge : units_.ids()) {
+      if (targets_.least[edge] != 0) members_[chords_.chords.of(edge)].push_back(edge);
     }
-    problem_.variables.assign(effective_.size(), {});
-    for (const EdgeId chord : effective_.ids()) start_value(chord);
+    problem_.variables.assign(chords_.fixed.size(), {});
+    for (const EdgeId chord : units_.ids()) start_value(chord);
   }
 
   /// Sets all of a chord's variable but its terms. One unit is `units_[chord]` segments of the final mesh.
@@ -237,13 +221,13 @@ class CountChooser {
     }
     variable.wanted = parts * (wanted / static_cast<double>(members.size()));
     variable.weight = static_cast<double>(members.size());
-    variable.value = std::max(variable.least, rounded(variable.wanted));
-    variable.fixed = fixed_[chord] > 0 || even;
-    if (fixed_[chord] > 0) {
-      variable.wanted = 1.0 * fixed_[chord] / unit;
-      variable.value = variable.least = std::max(1, fixed_[chord] / unit);
+    variable.value = std::max(variable.least, round_to_int(variable.wanted));
+    variable.fixed = chords_.fixed[chord] > 0 || even;
+    if (chords_.fixed[chord] > 0) {
+      variable.wanted = 1.0 * chords_.fixed[chord] / unit;
+      variable.value = variable.least = std::max(1, chords_.fixed[chord] / unit);
     } else if (even) {
-      variable.value = 2 * rounded(0.5 * std::max(variable.wanted, 1.0 * variable.least));
+      variable.value = 2 * round_to_int(0.5 * std::max(variable.wanted, 1.0 * variable.least));
       variable.wanted = variable.value;
     }
   }
@@ -282,9 +266,9 @@ class CountChooser {
     for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
       const bool is_grid = sides.rest.empty() && sides.is_filled();
-      for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.of(edge)] &= is_grid; });
+      for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.chords.of(edge)] &= is_grid; });
       add_facing(face);
-      for (const EdgeId edge : sides.rest) is_between_grids_[chords_.of(edge)] = 0;
+      for (const EdgeId edge : sides.rest) is_between_grids_[chords_.chords.of(edge)] = 0;
       if (sides.rest.empty() || (sides.may_be_odd() && targets_.stride == 2)) continue;
       const int node = add_node(face, BalanceProblem::Rule::even);
       for (const EdgeId edge : sides.rest) add_term(edge, node, 1);
@@ -299,15 +283,6 @@ class CountChooser {
         return problem_.rules[term.first] == BalanceProblem::Rule::zero ? term.second == 0
                                                                         : term.second % 2 == 0;
       });
-    }
-  }
-
-  template <class Visit>
-  static void for_each_edge(const FaceSides& sides, Visit&& visit) {
-    for (const FacingPair& pair : sides.facing) {
-      for (const FaceSide* side : {&pair.first, &pair.second}) {
-        for (const SideEdge& edge : *side) visit(edge.edge);
-      }
     }
   }
 
@@ -328,7 +303,7 @@ class CountChooser {
 
   void add_term(EdgeId edge, int node, int coefficient) {
     if (targets_.least[edge] == 0) return;
-    auto& terms = variable(chords_.of(edge)).terms;
+    auto& terms = variable(chords_.chords.of(edge)).terms;
     const auto it =
         std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
     if (it == terms.end()) {
@@ -338,70 +313,12 @@ class CountChooser {
     }
   }
 
-  /// Balances all faces. Drops faces whose facing sides cannot have equal counts until the others can.
-  /// \return faces that stay odd.
-  std::vector<FaceId> balance_faces() {
-    std::vector<FaceId> odd;
-    for (bool dropped = true; dropped;) {
-      targets_.check();
-      set_up_rules();
-      dropped = false;
-      odd.clear();
-      for (const int node : balance(problem_, targets_.check)) {
-        const FaceId face = faces_of_nodes_[node];
-        if (problem_.rules[node] == BalanceProblem::Rule::even) odd.push_back(face);
-        if (sides_[face].facing.empty()) continue;
-        sides_[face].drop_facing();
-        dropped = true;
-      }
-    }
-    return odd;
-  }
-
-  /// Balances faces by parity alone. \return faces that stay odd.
-  std::vector<FaceId> make_faces_even() {
-    start_values();
-    set_up_rules();
-    IdVector<EdgeId, ParityEdge> edges(problem_.variables.size());
-    FaceFlags odd(sides_.size());
-    for (const EdgeId chord : edges.ids()) {
-      const auto& variable = this->variable(chord);
-      edges[chord].cost = variable.fixed ? std::numeric_limits<double>::infinity()
-                                         : variable.weight * cost_of_change(variable);
-      for (const auto& [node, coefficient] : variable.terms) {
-        const FaceId face = faces_of_nodes_[node];
-        edges[chord].faces.push_back(face);
-        if (variable.value % 2 != 0) odd[face] ^= 1;
-      }
-    }
-    std::vector<FaceId> left;
-    const EdgeFlags change = make_even(edges, odd, left, targets_.check);
-    for (const EdgeId chord : edges.ids()) {
-      if (change[chord]) variable(chord).value += change_of(variable(chord));
-    }
-    return left;
-  }
-
-  /// The change by one, 1 or -1, that fits the wanted count better.
-  static int change_of(const BalanceProblem::Variable& variable) {
-    return variable.wanted >= variable.value || variable.value <= variable.least ? 1 : -1;
-  }
-
-  static double cost_of_change(const BalanceProblem::Variable& variable) {
-    const double ratio = (variable.value + change_of(variable)) / std::max(variable.wanted, 0.5);
-    return std::abs(std::log(ratio)) + 1e-6;
-  }
-
   BalanceProblem::Variable& variable(EdgeId chord) { return problem_.variables[chord.index()]; }
 
-  const CadShape& shape_;
   const CountTargets& targets_;
-  const TinyFeatures& tiny_;
+  const FixedChords& chords_;
   FaceOutlines& sides_;
-  IdVector<EdgeId, double> effective_;  // wanted count, at least `least`
-  Chords chords_;
   // By the representative edge of a chord:
-  IdVector<EdgeId, int> fixed_;                    // segments of the final mesh; 0 = any number
   IdVector<EdgeId, std::vector<EdgeId>> members_;  // edges
   IdVector<EdgeId, int> units_;                    // segments of the final mesh per unit of the count
   EdgeFlags is_between_grids_;                     // 1 = all its faces are grids
@@ -409,11 +326,107 @@ class CountChooser {
   std::vector<FaceId> faces_of_nodes_;             // (nodes)
 };
 
+/// Names the included edges whose numbers are fixed, as "Edge4, Edge7".
+template <class Includes>
+std::string fixed_edges(const CadShape& shape, const CountTargets& targets, Includes&& includes) {
+  std::set<int> numbers;  // the pieces of an edge that a seam divides have one number
+  for (const EdgeId edge : targets.fixed.ids()) {
+    if (targets.fixed[edge] > 0 && includes(edge)) numbers.insert(shape.edges[edge].number);
+  }
+  return numbers.empty() ? "" : fmt::format("Edge{}", fmt::join(numbers, ", Edge"));
+}
+
+/// The number that users prescribe for the first of the edges included, with all its pieces.
+template <class Includes>
+int segments_of_whole(const CadShape& shape, const CountTargets& targets, Includes&& includes) {
+  const auto ids = targets.fixed.ids();
+  const auto first = std::find_if(ids.begin(), ids.end(), includes);
+  int sum = 0;
+  for (const EdgeId edge : ids)
+    if (shape.edges[edge].number == shape.edges[*first].number) sum += targets.fixed[edge];
+  return sum;
+}
+
+/// What to do about a face that stays odd. \param names of the edges around it that are fixed
+std::string numbers_that_work(const CadShape& shape, const CountTargets& targets, FixedChords chords,
+                              FaceOutlines& sides, const BalancedCounts& counts, FaceId face,
+                              const std::string& names) {
+  std::vector<std::string> ways;
+  std::set<EdgeId> around;
+  for (const EdgeId edge : targets.fixed.ids())
+    if (targets.fixed[edge] > 0 && is_on(edge, sides[face])) around.insert(chords.chords.of(edge));
+  for (const EdgeId chord : around) {
+    const auto is_here = [&](EdgeId edge) {
+      return chords.chords.of(edge) == chord && is_on(edge, sides[face]);
+    };
+    const std::string edges = fixed_edges(shape, targets, is_here);
+    const int fixed = chords.fixed[chord];
+    chords.fixed[chord] = fixed + counts.units[chord];
+    const std::vector<FaceId> left = CountProblem(targets, chords, sides).make_faces_even().odd;
+    chords.fixed[chord] = fixed;
+    if (left.size() >= counts.odd.size() || std::find(left.begin(), left.end(), face) != left.end()) continue;
+    const int all = segments_of_whole(shape, targets, is_here), less = all - counts.units[chord],
+              more = all + counts.units[chord];
+    const std::string way =
+        less > 0 ? fmt::format("{} or {} on {}", less, more, edges) : fmt::format("{} on {}", more, edges);
+    // Several pieces of an edge give the same.
+    if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
+  }
+  if (ways.empty()) return "change the numbers on two or more of " + names;
+  return fmt::format("use {}", fmt::join(ways, ", or "));
+}
+
+/// Throws if fixed numbers cannot be kept.
+void hold_fixed(const CadShape& shape, const CountTargets& targets, const FixedChords& chords,
+                FaceOutlines& sides, const BalancedCounts& counts) {
+  for (const EdgeId chord : chords.fixed.ids()) {
+    const int fixed = chords.fixed[chord];
+    if (chords.chords.of(chord) != chord || fixed % counts.units[chord] == 0) continue;
+    throw usage_error(
+        "segments",
+        fmt::format("`segments` gives {} to {}, and a face there that is not a grid needs an "
+                    "even number: use {}, or `strategy` direct",
+                    fixed,
+                    fixed_edges(shape, targets, [&](EdgeId edge) { return chords.chords.of(edge) == chord; }),
+                    fixed > 1 ? fmt::format("{} or {}", fixed - 1, fixed + 1) : "2"));
+  }
+  for (const FaceId face : counts.odd) {
+    const std::string names =
+        fixed_edges(shape, targets, [&](EdgeId edge) { return is_on(edge, sides[face]); });
+    if (names.empty()) continue;
+    throw usage_error("segments",
+                      fmt::format("`segments` leaves Face{} with {} around it: {}", face.number(),
+                                  targets.stride == 2 ? "a number of segments that is no multiple of four"
+                                                      : "an odd number of segments",
+                                  numbers_that_work(shape, targets, chords, sides, counts, face, names)));
+  }
+}
+
 }  // namespace
 
 EdgeCounts choose_counts(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
                          FaceOutlines& sides) {
-  EdgeCounts result = CountChooser(shape, targets, tiny, sides).run();
+  FixedChords chords = tie_chords(shape, targets, tiny, sides);
+  BalancedCounts counts = CountProblem(targets, chords, sides).balance_faces();
+  if (!counts.odd.empty()) {
+    // Usually edges of three or more faces. First drop faces with sides of several edges, then all.
+    for (FaceSides& face : sides)
+      if (has_sums(face)) face.drop_facing();
+    counts = CountProblem(targets, chords, sides).make_faces_even();
+  }
+  if (!counts.odd.empty()) {
+    for (FaceSides& face : sides) face.drop_facing();
+    chords = tie_chords(shape, targets, tiny, sides);
+    counts = CountProblem(targets, chords, sides).make_faces_even();
+  }
+  hold_fixed(shape, targets, chords, sides, counts);
+  EdgeCounts result{IdVector<EdgeId, int>(shape.edges.size()), std::move(chords.chords)};
+  for (const EdgeId edge : result.counts.ids()) {
+    const EdgeId chord = result.chords.of(edge);
+    if (targets.least[edge] == 0) continue;
+    result.counts[edge] =
+        chords.fixed[chord] > 0 ? chords.fixed[chord] : counts.units[chord] * counts.values[chord];
+  }
   choose_single_segments(shape, targets, sides, result);
   return result;
 }

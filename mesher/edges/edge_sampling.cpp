@@ -6,14 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/whole_number.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
-#include "mesher/edges/count_table.hpp"
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
@@ -80,6 +78,257 @@ double chord_of(const CadEdge& edge) {
   return (curve.point(edge.last) - curve.point(edge.first)).norm();
 }
 
+/// What the sizing field and the plan ask of each edge.
+struct EdgeDemand {
+  EdgeFlags used;  ///< 1 = the edge has nodes
+  EdgeTables tables;
+  CountTargets targets;
+};
+
+/// The counts by the sizing field at the ends of the part of an edge between its heads.
+std::pair<double, double> counts_between(const CountTable& table, const EdgeHeads& heads) {
+  return {table.count_at_length(sum_of(heads.first)),
+          table.count_at_length(table.length() - sum_of(heads.last))};
+}
+
+class TargetFinder {
+ public:
+  TargetFinder(const CadShape& shape, const SizingField& field, int stride, const SamplingPlan& plan,
+               ExecutionContext& context, EdgeTables* known)
+      : shape_(shape),
+        field_(field),
+        stride_(stride),
+        plan_(plan),
+        context_(context),
+        known_(known),
+        n_(shape.edges.size()) {}
+
+  EdgeDemand run(const FaceFlags& used) && {
+    demand_.used = find_used_edges(shape_, used, plan_.tiny);
+    const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
+    const EdgeFlags inner = find_inner_edges(shape_);
+    demand_.tables.resize(n_);
+    demand_.targets.stride = stride_;
+    demand_.targets.check = [&context = context_] { context.check(); };
+    demand_.targets.least.assign(n_, 0);
+    demand_.targets.least_of_grids.assign(n_, 0);
+    demand_.targets.wanted.assign(n_, 0);
+    demand_.targets.fixed.assign(n_, 0);
+    demand_.targets.even.assign(n_, 0);
+    double segments = 0;
+    for (const EdgeId i : shape_.edges.ids()) {
+      if (i.index() % 256 == 0) context_.report(Stage::sample, 0.5 * i.index() / static_cast<double>(n_));
+      context_.check();
+      const CadEdge& edge = shape_.edges[i];
+      if (edge.degenerate || edge.length <= 0 || !demand_.used[i] || plan_.tiny.collapsed_edges[i]) continue;
+      demand_.tables[i] = table_of(i);
+      const int stride = plan_.stride_of(edge, stride_);
+      bool is_finer = false;
+      for (const EdgeStretch& part : plan_.finer) {
+        if (part.edge != i) continue;
+        demand_.tables[i].make_finer(part.from, part.to,
+                                     std::min(part.segments * stride, most_segments(part)));
+        is_finer = true;
+      }
+      double& wanted = demand_.targets.wanted[i];
+      wanted = std::min(demand_.tables[i].total(), most_at_least_size(i, 1)) / stride_;
+      // An edge has at least one segment, which the factor multiplies.
+      if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
+      if (plan_.along_chord(i, edge)) wanted *= chord_of(edge) / edge.length;
+      segments += stride_ * wanted;
+      hold_segments(segments, field_.budget(), edge);
+      const double turning = plan_.ignore_curvature[i] ? 0 : demand_.tables[i].turning;
+      demand_.targets.least[i] =
+          least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
+      // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
+      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], static_cast<int>(wanted));
+      raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
+      add_heads(i);
+      if (plan_.prescribes(i)) {
+        fix_count(i, shared_ends[i], inner[i]);
+      } else if (stride != stride_) {
+        demand_.targets.even[i] = 1;
+        demand_.targets.least[i] = std::max(
+            demand_.targets.least[i] + demand_.targets.least[i] % 2,
+            stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
+      }
+    }
+    share_targets();
+    return std::move(demand_);
+  }
+
+ private:
+  /// How many times `unit` segments an edge has room for where the least size limits them, or infinity: the
+  /// count is rounded down there, since with one more all would be shorter. Sizes that are given by name may
+  /// be below the least.
+  double most_at_least_size(EdgeId i, int unit) const {
+    constexpr double rounding = 1 + 1e-6;
+    const double room = rounding * shape_.edges[i].length / field_.size_min();
+    return demand_.tables[i].total() > room ? std::numeric_limits<double>::infinity()
+                                            : std::max(1.0, std::floor(room / unit));
+  }
+
+  /// Sets the least count between grids, and raises both least counts on arcs.
+  void raise_least(EdgeId i, double turning, bool needs_least) {
+    const double wanted = demand_.targets.wanted[i];
+    int &least = demand_.targets.least[i], &of_grids = demand_.targets.least_of_grids[i];
+    // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
+    // Other curves keep their shape there as elsewhere.
+    constexpr double straight = 1e-3, quarter_turn = 1.6;
+    const bool is_curve = turning > straight && (stride_ * wanted > 1 || turning > quarter_turn);
+    of_grids = is_curve || needs_least ? stride_ * least : 1;
+    if (turning <= least_arc) return;
+    // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
+    constexpr double nearly = 0.25;
+    least = std::max(least, to_int(std::min(std::ceil(wanted - nearly), most_at_least_size(i, stride_))));
+    of_grids = std::max(of_grids, to_int(std::ceil(stride_ * wanted - nearly)));
+  }
+
+  /// Edges with the same nodes get the larger of their wanted counts.
+  void share_targets() {
+    const auto take = [&](EdgeId to, EdgeId from) {
+      const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
+      if (demand_.targets.fixed[to] != 0 && demand_.targets.fixed[from] != 0)
+        return;  // choose_counts() compares them
+      raise(demand_.targets.least);
+      raise(demand_.targets.least_of_grids);
+      raise(demand_.targets.wanted);
+      raise(demand_.targets.fixed);
+      raise(demand_.targets.even);
+    };
+    for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
+    for (const MatchedEdge& copy : plan_.matched) {
+      take(copy.to, copy.from);
+      demand_.targets.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
+    }
+  }
+
+  CountTable table_of(EdgeId id) {
+    const auto make = [&] {
+      SizingField::Sampler sampler(field_, shape_.edges[id]);
+      return tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
+    };
+    if (known_ == nullptr) return make();
+    known_->resize(n_);
+    if ((*known_)[id].counts.empty()) (*known_)[id] = make();
+    return (*known_)[id];
+  }
+
+  /// How many segments a remedy may ask for on a part of an edge.
+  int most_segments(const EdgeStretch& part) const {
+    const CadEdge& edge = shape_.edges[part.edge];
+    const double length = edge.length * (part.to - part.from) / (edge.last - edge.first);
+    return plan_.shortest_segment > 0 ? std::max(2, to_int(std::ceil(length / plan_.shortest_segment)))
+                                      : std::numeric_limits<int>::max();
+  }
+
+  /// Adds the segments on which rows end to those that the sizes give on the rest of the edge.
+  void add_heads(EdgeId i) {
+    const auto heads = plan_.rows.heads.find(i);
+    if (heads == plan_.rows.heads.end()) return;
+    const auto [from, to] = counts_between(demand_.tables[i], heads->second);
+    const int own = heads->second.segments(), least = own + 1;
+    demand_.targets.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / stride_;
+    demand_.targets.least[i] = std::max(demand_.targets.least[i], (least + stride_ - 1) / stride_);
+    demand_.targets.least_of_grids[i] = std::max(demand_.targets.least_of_grids[i], least);
+  }
+
+  /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
+  void fix_count(EdgeId i, bool shares_both_ends, bool inner) {
+    const int segments = plan_.prescribed[i]->segments;
+    const bool closed = plan_.tiny.closed(shape_.edges[i]);
+    constexpr double hardly = 0.01;
+    const double turning = std::min(demand_.tables[i].turning, hardly);
+    const int least = least_segments(closed, turning, shares_both_ends, inner, stride_);
+    const bool needs_stride = closed || shares_both_ends || inner;
+    if (plan_.prescribed[i]->is_fixed() && segments < (needs_stride ? stride_ * least : 1))
+      throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
+                                                segments, shape_.edges[i].number, stride_ * least));
+    if (plan_.prescribed[i]->is_fixed()) demand_.targets.fixed[i] = segments;
+    demand_.targets.wanted[i] = 1.0 * segments / stride_;
+    demand_.targets.least[i] = std::max(1, std::min(demand_.targets.least[i], segments / stride_));
+    demand_.targets.least_of_grids[i] = std::min(demand_.targets.least_of_grids[i], segments);
+  }
+
+  const CadShape& shape_;
+  const SizingField& field_;
+  const int stride_;
+  const SamplingPlan& plan_;
+  ExecutionContext& context_;
+  EdgeTables* known_;    // may be null
+  const std::size_t n_;  // edges
+  EdgeDemand demand_;
+};
+
+/// Faces with rows along chains, and faces at the edges on which rows end, are not treated as grids, which
+/// would pass the short segments on to edges far away: their sides need not face each other.
+void free_sides_beside_chains(const CadShape& shape, const FaceFlags& used, const RowLines& rows,
+                              FaceOutlines& sides) {
+  FaceFlags freed(shape.faces.size());
+  for (const FaceId face : freed.ids()) freed[face] = has_chain(rows.of_faces, face);
+  for (const auto& [edge, heads] : rows.heads)
+    for (const FaceId face : shape.edges[edge].faces) freed[face] = 1;
+  for (const FaceId face : freed.ids()) {
+    if (!freed[face] || !used[face]) continue;
+    sides[face] = {};
+    for (const CadWire& wire : shape.faces[face].wires)
+      for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);
+  }
+}
+
+/// The places of an edge's nodes: its heads, and between them by the sizes; none if the heads have no room.
+std::vector<double> shares_with_heads(const CountTable& table, int segments, const EdgeHeads& heads) {
+  const int between = segments - heads.segments();
+  if (between < 1) return {};
+  const auto [from, to] = counts_between(table, heads);
+  std::vector<double> places{0};
+  for (const double length : heads.first) places.push_back(places.back() + length);
+  for (int k = 1; k < between; ++k) places.push_back(table.length_at(from + (to - from) * k / between));
+  places.push_back(table.length() - sum_of(heads.last));
+  for (auto length = heads.last.rbegin(); length != heads.last.rend(); ++length)
+    places.push_back(places.back() + *length);
+  for (double& place : places) place /= table.length();
+  places.back() = 1;
+  return places;
+}
+
+EdgeShares prescribed_shares(const SamplingPlan& plan, const EdgeTables& tables,
+                             const IdVector<EdgeId, int>& counts) {
+  EdgeShares shares(counts.size());
+  for (const EdgeId i : counts.ids()) {
+    if (plan.prescribes(i) && counts[i] > 0) shares[i] = plan.prescribed[i]->shares_of(counts[i]);
+  }
+  for (const auto& [edge, heads] : plan.rows.heads)
+    if (counts[edge] > 0) shares[edge] = shares_with_heads(tables[edge], counts[edge], heads);
+  return shares;
+}
+
+/// The numbers of segments, and where nodes lie on the edges.
+struct Division {
+  EdgeCounts counts;
+  PlannedSpacing spacing;
+};
+
+/// \param sides see choose_counts()
+Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const EdgeDemand& demand,
+                      FaceOutlines& sides) {
+  Division result{choose_counts(shape, demand.targets, plan.tiny, sides), {}};
+  const auto& [counts, chords] = result.counts;
+  PlannedSpacing& spacing = result.spacing;
+  spacing.shares = space_chords(shape, sides, chords, demand.tables, counts,
+                                prescribed_shares(plan, demand.tables, counts));
+  spacing.divided.resize(counts.size());
+  spacing.kept.resize(counts.size());
+  for (const EdgeId i : counts.ids()) {
+    const EdgeId chord = chords.of(i);
+    if (plan.rows.heads.contains(i)) spacing.kept[chord] = 1;
+    if (!plan.prescribes(i)) continue;
+    spacing.divided[chord] = 1;
+    if (!plan.prescribed[i]->shares.empty()) spacing.kept[chord] = 1;
+  }
+  return result;
+}
+
 /// The parameter of node k on a curve that may have loops: where the curve comes nearest to the point that
 /// divides its chord in equal parts. \param before parameters of nodes 0 .. k - 1.
 double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, int segments,
@@ -102,316 +351,32 @@ double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, 
   return best;
 }
 
-class EdgeSampler {
+class NodePlacer {
  public:
-  EdgeSampler(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
-              const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known)
-      : shape_(shape),
-        field_(field),
-        used_(used),
-        plan_(plan),
-        context_(context),
-        known_(known),
-        n_(shape.edges.size()),
-        used_edges_(find_used_edges(shape, used, plan.tiny)) {
-    result_.stride = stride;
-    result_.vertex_nodes.assign(shape.vertices.size(), -1);
-    result_.edges.resize(n_);
-  }
+  NodePlacer(const CadShape& shape, const SamplingPlan& plan, const EdgeDemand& demand,
+             const Division& division)
+      : shape_(shape), plan_(plan), demand_(demand), division_(division) {}
 
-  BoundaryNodes run() {
-    tabulate_edges();
-    share_targets();
-    FaceOutlines found = find_face_sides(shape_, used_, plan_.tiny, targets_.wanted);
-    free_sides_beside_chains(found);
-    FaceOutlines sides = found;
-    EdgeCounts chosen = choose(sides);
-    constexpr int most_rounds = 3;
-    for (int round = 0; round < most_rounds; ++round) {
-      const bool refined = refine_along_strips(shape_, sides, chosen, result_, shares_, field_.aspect(),
-                                               field_.size_min(), tables_, targets_);
-      if (!(round == 0 && fit_holes_to_grids(shape_, sides, chosen, tables_, targets_)) && !refined) break;
-      sides = found;
-      chosen = choose(sides);
-    }
-    place_vertices();
-    context_.check();
-    SparseCheck check(context_, 64);
+  BoundaryNodes run(const FaceFlags& used, ExecutionContext& context) && {
+    result_.stride = demand_.targets.stride;
+    result_.vertex_nodes.assign(shape_.vertices.size(), -1);
+    result_.edges.resize(shape_.edges.size());
+    place_vertices(used);
+    context.check();
+    SparseCheck check(context, 64);
+    const auto& [counts, chords] = division_.counts;
     for (const EdgeId i : shape_.edges.ids()) {
-      if (counts_[i] > 0) place_nodes(i, check);
+      result_.edges[i].divided = division_.spacing.divided[chords.of(i)] != 0;
+      result_.edges[i].kept = division_.spacing.kept[chords.of(i)] != 0;
+      if (counts[i] > 0) place_nodes(i, check);
     }
-    copy_nodes();
-    end_faces_at_tips(shape_, plan_.tips, plan_.tiny, result_);
-    copy_nodes();
-    borrow_nodes();
-    result_.plans = plan_faces(shape_, std::move(sides), plan_, result_);
+    for (const MatchedEdge& copy : plan_.matched)
+      result_.edges[copy.from].matched = result_.edges[copy.to].matched = result_.edges[copy.to].copied =
+          true;
     return std::move(result_);
   }
 
  private:
-  /// Chooses the counts, and where nodes lie on the edges.
-  EdgeCounts choose(FaceOutlines& sides) {
-    EdgeCounts chosen = choose_counts(shape_, targets_, plan_.tiny, sides);
-    counts_ = chosen.counts;
-    shares_ = space_chords(shape_, sides, chosen.chords, tables_, counts_, prescribed_shares());
-    keep_spacing(chosen.chords);
-    return chosen;
-  }
-
-  void tabulate_edges() {
-    const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
-    const EdgeFlags inner = find_inner_edges(shape_);
-    tables_.resize(n_);
-    targets_.stride = result_.stride;
-    targets_.check = [this] { context_.check(); };
-    targets_.least.assign(n_, 0);
-    targets_.least_of_grids.assign(n_, 0);
-    targets_.wanted.assign(n_, 0);
-    targets_.fixed.assign(n_, 0);
-    targets_.even.assign(n_, 0);
-    double segments = 0;
-    for (const EdgeId i : shape_.edges.ids()) {
-      if (i.index() % 256 == 0) context_.report(Stage::sample, 0.5 * i.index() / static_cast<double>(n_));
-      context_.check();
-      const CadEdge& edge = shape_.edges[i];
-      if (edge.degenerate || edge.length <= 0 || !used_edges_[i] || plan_.tiny.collapsed_edges[i]) continue;
-      tables_[i] = table_of(i);
-      const bool even = result_.stride == 1 && edge.is_used(plan_.subdivided);
-      const int stride = result_.edges[i].stride = even ? 2 : result_.stride;
-      bool is_finer = false;
-      for (const EdgeStretch& part : plan_.finer) {
-        if (part.edge != i) continue;
-        tables_[i].make_finer(part.from, part.to, std::min(part.segments * stride, most_segments(part)));
-        is_finer = true;
-      }
-      double& wanted = targets_.wanted[i];
-      wanted = std::min(tables_[i].total(), most_at_least_size(i, 1)) / result_.stride;
-      // An edge has at least one segment, which the factor multiplies.
-      if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
-      if (along_chord(i)) wanted *= chord_of(edge) / edge.length;
-      segments += result_.stride * wanted;
-      hold_segments(segments, field_.budget(), edge);
-      const double turning = plan_.ignore_curvature[i] ? 0 : tables_[i].turning;
-      targets_.least[i] =
-          least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], result_.stride);
-      // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
-      if (is_finer) targets_.least[i] = std::max(targets_.least[i], static_cast<int>(wanted));
-      raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
-      add_heads(i);
-      if (is_prescribed(i)) {
-        fix_count(i, shared_ends[i], inner[i]);
-      } else if (even) {
-        targets_.even[i] = 1;
-        targets_.least[i] = std::max(
-            targets_.least[i] + targets_.least[i] % 2,
-            stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
-      }
-    }
-  }
-
-  /// How many times `unit` segments an edge has room for where the least size limits them, or infinity: the
-  /// count is rounded down there, since with one more all would be shorter. Sizes that are given by name may
-  /// be below the least.
-  double most_at_least_size(EdgeId i, int unit) const {
-    constexpr double rounding = 1 + 1e-6;
-    const double room = rounding * shape_.edges[i].length / field_.size_min();
-    return tables_[i].total() > room ? std::numeric_limits<double>::infinity()
-                                     : std::max(1.0, std::floor(room / unit));
-  }
-
-  /// Sets the least count between grids, and raises both least counts on arcs.
-  void raise_least(EdgeId i, double turning, bool needs_least) {
-    const double wanted = targets_.wanted[i];
-    int &least = targets_.least[i], &of_grids = targets_.least_of_grids[i];
-    // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
-    // Other curves keep their shape there as elsewhere.
-    constexpr double straight = 1e-3, quarter_turn = 1.6;
-    const bool is_curve = turning > straight && (result_.stride * wanted > 1 || turning > quarter_turn);
-    of_grids = is_curve || needs_least ? result_.stride * least : 1;
-    if (turning <= least_arc) return;
-    // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
-    constexpr double nearly = 0.25;
-    least =
-        std::max(least, to_int(std::min(std::ceil(wanted - nearly), most_at_least_size(i, result_.stride))));
-    of_grids = std::max(of_grids, to_int(std::ceil(result_.stride * wanted - nearly)));
-  }
-
-  /// Edges with the same nodes get the larger of their wanted counts.
-  void share_targets() {
-    const auto take = [&](EdgeId to, EdgeId from) {
-      const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
-      if (targets_.fixed[to] != 0 && targets_.fixed[from] != 0) return;  // choose_counts() compares them
-      raise(targets_.least);
-      raise(targets_.least_of_grids);
-      raise(targets_.wanted);
-      raise(targets_.fixed);
-      raise(targets_.even);
-    };
-    for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
-    for (const MatchedEdge& copy : plan_.matched) {
-      take(copy.to, copy.from);
-      targets_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
-      result_.edges[copy.from].matched = result_.edges[copy.to].matched = result_.edges[copy.to].copied =
-          true;
-    }
-  }
-
-  /// Moves the nodes of matched edges to the images of their partners' nodes.
-  void copy_nodes() {
-    for (const MatchedEdge& copy : plan_.matched) {
-      const BoundaryNodes::Edge& from = result_.edges[copy.from];
-      BoundaryNodes::Edge& to = result_.edges[copy.to];
-      if (from.segments() != to.segments())
-        throw failure("match",
-                      fmt::format("`match` cannot give Edge{} the nodes of Edge{}, since one of them is "
-                                  "left out: use `keep_features`, or a smaller `merge_tiny`",
-                                  shape_.edges[copy.to].number, shape_.edges[copy.from].number));
-      const EdgeCurve curve(shape_.edges[copy.to]);
-      for (int k = 1; k < to.segments(); ++k) {
-        const Vector3& source = result_.points[from.nodes[copy.reversed ? from.segments() - k : k]];
-        Vector3& point = result_.points[to.nodes[k]];
-        point = copy.motion(source);
-        to.parameters[k] = parameter_at(curve, shape_.edges[copy.to], to.parameters[k], point);
-      }
-    }
-  }
-
-  /// The parameter of a point on a curve, searched from another one by Newton's method.
-  static double parameter_at(const EdgeCurve& curve, const CadEdge& edge, double t, const Vector3& point) {
-    constexpr int most_steps = 30;
-    for (int i = 0; i < most_steps; ++i) {
-      const Vector3 along = curve.derivative(t);
-      const double step = along.dot(point - curve.point(t)) / std::max(along.squaredNorm(), 1e-300);
-      const double next = std::clamp(t + step, edge.first, edge.last);
-      if (std::abs(next - t) <= 1e-14 * (edge.last - edge.first)) break;
-      t = next;
-    }
-    return t;
-  }
-
-  CountTable table_of(EdgeId id) {
-    const auto make = [&] {
-      SizingField::Sampler sampler(field_, shape_.edges[id]);
-      return tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
-    };
-    if (known_ == nullptr) return make();
-    known_->resize(n_);
-    if ((*known_)[id].counts.empty()) (*known_)[id] = make();
-    return (*known_)[id];
-  }
-
-  /// How many segments a remedy may ask for on a part of an edge.
-  int most_segments(const EdgeStretch& part) const {
-    const CadEdge& edge = shape_.edges[part.edge];
-    const double length = edge.length * (part.to - part.from) / (edge.last - edge.first);
-    return plan_.shortest_segment > 0 ? std::max(2, to_int(std::ceil(length / plan_.shortest_segment)))
-                                      : std::numeric_limits<int>::max();
-  }
-
-  bool is_prescribed(EdgeId edge) const {
-    return !plan_.prescribed.empty() && plan_.prescribed[edge].has_value();
-  }
-
-  /// Adds the segments on which rows end to those that the sizes give on the rest of the edge.
-  void add_heads(EdgeId i) {
-    const auto heads = plan_.rows.heads.find(i);
-    if (heads == plan_.rows.heads.end()) return;
-    const auto [from, to] = counts_between(i, heads->second);
-    const int own = heads->second.segments(), least = own + 1;
-    targets_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / result_.stride;
-    targets_.least[i] = std::max(targets_.least[i], (least + result_.stride - 1) / result_.stride);
-    targets_.least_of_grids[i] = std::max(targets_.least_of_grids[i], least);
-  }
-
-  static double sum_of(const std::vector<double>& lengths) {
-    return std::accumulate(lengths.begin(), lengths.end(), 0.0);
-  }
-
-  /// The counts by the sizing field at the ends of the part of an edge between its heads.
-  std::pair<double, double> counts_between(EdgeId edge, const EdgeHeads& heads) const {
-    const CountTable& table = tables_[edge];
-    return {table.count_at_length(sum_of(heads.first)),
-            table.count_at_length(table.length() - sum_of(heads.last))};
-  }
-
-  /// The places of an edge's nodes: its heads, and between them by the sizes; none if the heads have no room.
-  std::vector<double> shares_with_heads(EdgeId edge, const EdgeHeads& heads) const {
-    const CountTable& table = tables_[edge];
-    const int between = counts_[edge] - heads.segments();
-    if (between < 1) return {};
-    const auto [from, to] = counts_between(edge, heads);
-    std::vector<double> places{0};
-    for (const double length : heads.first) places.push_back(places.back() + length);
-    for (int k = 1; k < between; ++k) places.push_back(table.length_at(from + (to - from) * k / between));
-    places.push_back(table.length() - sum_of(heads.last));
-    for (auto length = heads.last.rbegin(); length != heads.last.rend(); ++length)
-      places.push_back(places.back() + *length);
-    for (double& place : places) place /= table.length();
-    places.back() = 1;
-    return places;
-  }
-
-  /// Faces with rows along chains, and faces at the edges on which rows end, are not treated as grids, which
-  /// would pass the short segments on to edges far away: their sides need not face each other.
-  void free_sides_beside_chains(FaceOutlines& sides) const {
-    FaceFlags freed(shape_.faces.size());
-    for (const FaceId face : freed.ids()) freed[face] = has_chain(plan_.rows.of_faces, face);
-    for (const auto& [edge, heads] : plan_.rows.heads)
-      for (const FaceId face : shape_.edges[edge].faces) freed[face] = 1;
-    for (const FaceId face : freed.ids()) {
-      if (!freed[face] || !used_[face]) continue;
-      sides[face] = {};
-      for (const CadWire& wire : shape_.faces[face].wires)
-        for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);
-    }
-  }
-
-  /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
-  void fix_count(EdgeId i, bool shares_both_ends, bool inner) {
-    const int segments = plan_.prescribed[i]->segments;
-    const bool closed = plan_.tiny.closed(shape_.edges[i]);
-    constexpr double hardly = 0.01;
-    const double turning = std::min(tables_[i].turning, hardly);
-    const int least = least_segments(closed, turning, shares_both_ends, inner, result_.stride);
-    const bool needs_stride = closed || shares_both_ends || inner;
-    if (plan_.prescribed[i]->is_fixed() && segments < (needs_stride ? result_.stride * least : 1))
-      throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
-                                                segments, shape_.edges[i].number, result_.stride * least));
-    if (plan_.prescribed[i]->is_fixed()) targets_.fixed[i] = segments;
-    targets_.wanted[i] = 1.0 * segments / result_.stride;
-    targets_.least[i] = std::max(1, std::min(targets_.least[i], segments / result_.stride));
-    targets_.least_of_grids[i] = std::min(targets_.least_of_grids[i], segments);
-  }
-
-  EdgeShares prescribed_shares() const {
-    EdgeShares shares(n_);
-    for (const EdgeId i : shape_.edges.ids()) {
-      if (is_prescribed(i) && counts_[i] > 0) shares[i] = plan_.prescribed[i]->shares_of(counts_[i]);
-    }
-    for (const auto& [edge, heads] : plan_.rows.heads)
-      if (counts_[edge] > 0) shares[edge] = shares_with_heads(edge, heads);
-    return shares;
-  }
-
-  /// Marks the edges of chords whose count (divided) or spacing (kept) users prescribe.
-  void keep_spacing(const Chords& chords) {
-    EdgeFlags divided(n_), kept(n_);
-    for (const EdgeId i : shape_.edges.ids()) {
-      if (plan_.rows.heads.contains(i)) kept[chords.of(i)] = 1;
-      if (!is_prescribed(i)) continue;
-      divided[chords.of(i)] = 1;
-      if (!plan_.prescribed[i]->shares.empty()) kept[chords.of(i)] = 1;
-    }
-    for (const EdgeId i : shape_.edges.ids()) {
-      result_.edges[i].divided = divided[chords.of(i)] != 0;
-      result_.edges[i].kept = kept[chords.of(i)] != 0;
-    }
-  }
-
-  bool along_chord(EdgeId edge) const {
-    return plan_.ignore_curvature[edge] && !plan_.tiny.closed(shape_.edges[edge]);
-  }
-
   int add_point(const Vector3& point) {
     result_.points.push_back(point);
     return static_cast<int>(result_.points.size()) - 1;
@@ -427,15 +392,15 @@ class EdgeSampler {
   }
 
   /// Vertices come first, so that their numbers do not depend on the counts.
-  void place_vertices() {
+  void place_vertices(const FaceFlags& used) {
     for (const EdgeId i : shape_.edges.ids()) {
       const CadEdge& edge = shape_.edges[i];
-      if (!used_edges_[i]) continue;
+      if (!demand_.used[i]) continue;
       if (edge.first_vertex.exists()) vertex_node(edge.first_vertex, Vector3::Zero());
       if (edge.last_vertex.exists()) vertex_node(edge.last_vertex, Vector3::Zero());
     }
     for (const FaceId face : shape_.faces.ids()) {
-      if (!used_[face]) continue;
+      if (!used[face]) continue;
       for (const InnerVertex& point : shape_.faces[face].inner_vertices)
         vertex_node(point.vertex, Vector3::Zero());
     }
@@ -445,12 +410,15 @@ class EdgeSampler {
     const CadEdge& edge = shape_.edges[i];
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result_.edges[i];
-    const int segments = counts_[i];
+    nodes.stride = plan_.stride_of(edge, result_.stride);
+    const CountTable& table = demand_.tables[i];
+    const std::vector<double>& shares = division_.spacing.shares[i];
+    const int segments = division_.counts.counts[i];
     for (int k = 0; k <= segments; ++k) {
       check();
-      double t = along_chord(i)       ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
-                 : shares_[i].empty() ? tables_[i].parameter_at(tables_[i].total() * k / segments)
-                                      : tables_[i].parameter_at_length(tables_[i].length() * shares_[i][k]);
+      double t = plan_.along_chord(i, edge) ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
+                 : shares.empty()           ? table.parameter_at(table.total() * k / segments)
+                                            : table.parameter_at_length(table.length() * shares[k]);
       if (k == 0) t = edge.first;
       if (k == segments) t = edge.last;
       nodes.parameters.push_back(t);
@@ -466,30 +434,56 @@ class EdgeSampler {
     }
   }
 
-  void borrow_nodes() {
-    for (const EdgeId i : shape_.edges.ids()) {
-      if (counts_[i] == 0 || plan_.tiny.edges[i] == i) continue;
-      auto& edge = result_.edges[i];
-      edge.nodes = result_.edges[plan_.tiny.edges[i]].nodes;
-      edge.borrowed = {edge.segments(), 0};
-      if (plan_.tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
-    }
-  }
-
   const CadShape& shape_;
-  const SizingField& field_;
-  const FaceFlags& used_;
   const SamplingPlan& plan_;
-  ExecutionContext& context_;
-  EdgeTables* known_;  // may be null
-  std::size_t n_;      // edges
-  EdgeFlags used_edges_;
-  IdVector<EdgeId, CountTable> tables_;
-  CountTargets targets_;
-  IdVector<EdgeId, int> counts_;  // segments of the final mesh
-  EdgeShares shares_;             // empty = by own sizes
+  const EdgeDemand& demand_;
+  const Division& division_;
   BoundaryNodes result_;
 };
+
+/// The parameter of a point on a curve, searched from another one by Newton's method.
+double parameter_at(const EdgeCurve& curve, const CadEdge& edge, double t, const Vector3& point) {
+  constexpr int most_steps = 30;
+  for (int i = 0; i < most_steps; ++i) {
+    const Vector3 along = curve.derivative(t);
+    const double step = along.dot(point - curve.point(t)) / std::max(along.squaredNorm(), 1e-300);
+    const double next = std::clamp(t + step, edge.first, edge.last);
+    if (std::abs(next - t) <= 1e-14 * (edge.last - edge.first)) break;
+    t = next;
+  }
+  return t;
+}
+
+/// Moves the nodes of matched edges to the images of their partners' nodes.
+void copy_nodes(const CadShape& shape, const std::vector<MatchedEdge>& matched, BoundaryNodes& nodes) {
+  for (const MatchedEdge& copy : matched) {
+    const BoundaryNodes::Edge& from = nodes.edges[copy.from];
+    BoundaryNodes::Edge& to = nodes.edges[copy.to];
+    if (from.segments() != to.segments())
+      throw failure("match",
+                    fmt::format("`match` cannot give Edge{} the nodes of Edge{}, since one of them is "
+                                "left out: use `keep_features`, or a smaller `merge_tiny`",
+                                shape.edges[copy.to].number, shape.edges[copy.from].number));
+    const EdgeCurve curve(shape.edges[copy.to]);
+    for (int k = 1; k < to.segments(); ++k) {
+      const Vector3& source = nodes.points[from.nodes[copy.reversed ? from.segments() - k : k]];
+      Vector3& point = nodes.points[to.nodes[k]];
+      point = copy.motion(source);
+      to.parameters[k] = parameter_at(curve, shape.edges[copy.to], to.parameters[k], point);
+    }
+  }
+}
+
+/// Gives edges that share the nodes of another edge those.
+void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
+  for (const EdgeId i : nodes.edges.ids()) {
+    if (nodes.edges[i].parameters.empty() || tiny.edges[i] == i) continue;
+    auto& edge = nodes.edges[i];
+    edge.nodes = nodes.edges[tiny.edges[i]].nodes;
+    edge.borrowed = {edge.segments(), 0};
+    if (tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
+  }
+}
 
 }  // namespace
 
@@ -501,7 +495,28 @@ SamplingPlan::SamplingPlan(const CadShape& shape)
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
                            const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known) {
-  return EdgeSampler(shape, field, stride, used, plan, context, known).run();
+  EdgeDemand demand = TargetFinder(shape, field, stride, plan, context, known).run(used);
+  FaceOutlines found = find_face_sides(shape, used, plan.tiny, demand.targets.wanted);
+  free_sides_beside_chains(shape, used, plan.rows, found);
+  FaceOutlines sides = found;
+  Division division = divide_edges(shape, plan, demand, sides);
+  constexpr int most_rounds = 3;
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool refined = refine_along_strips(shape, sides, division.counts, division.spacing, field.aspect(),
+                                             field.size_min(), demand.tables, demand.targets);
+    if (!(round == 0 && fit_holes_to_grids(shape, sides, division.counts, demand.tables, demand.targets)) &&
+        !refined)
+      break;
+    sides = found;
+    division = divide_edges(shape, plan, demand, sides);
+  }
+  BoundaryNodes nodes = NodePlacer(shape, plan, demand, division).run(used, context);
+  copy_nodes(shape, plan.matched, nodes);
+  end_faces_at_tips(shape, plan.tips, plan.tiny, nodes);
+  copy_nodes(shape, plan.matched, nodes);
+  borrow_nodes(plan.tiny, nodes);
+  nodes.plans = plan_faces(shape, std::move(sides), plan, nodes);
+  return nodes;
 }
 
 }  // namespace quadrille

@@ -96,6 +96,14 @@ struct SamplingPlan {
   RowLines rows;               ///< along which faces get rows, and where these end on edges
   /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
   std::vector<MatchedEdge> matched;
+
+  bool prescribes(EdgeId edge) const { return !prescribed.empty() && prescribed[edge].has_value(); }
+  /// Whether the nodes of an edge lie near equal parts of its chord.
+  bool along_chord(EdgeId id, const CadEdge& edge) const {
+    return ignore_curvature[id] && !tiny.closed(edge);
+  }
+  /// Segments of an edge for each one of the mesh that is recombined. \param all see BoundaryNodes::stride
+  int stride_of(const CadEdge& edge, int all) const { return all == 1 && edge.is_used(subdivided) ? 2 : all; }
 };
 
 /// The tables of edges by the sizing field alone, as far as they are known.

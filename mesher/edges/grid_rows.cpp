@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -27,10 +26,6 @@ constexpr double most_of_side = 0.9;
 struct Stacks {
   std::vector<double> first, last;
 };
-
-double sum_of(const std::vector<double>& heights) {
-  return std::accumulate(heights.begin(), heights.end(), 0.0);
-}
 
 /// Row heights along an edge: layers from both ends, and sizes between that grow from the layers.
 class StackedEdge {

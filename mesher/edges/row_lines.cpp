@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +12,10 @@
 #include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {
+
+double sum_of(const std::vector<double>& lengths) {
+  return std::accumulate(lengths.begin(), lengths.end(), 0.0);
+}
 
 std::vector<double> heights_of(const SizeLayers& layers) {
   std::vector<double> heights;
@@ -154,8 +157,7 @@ class RowLineFinder {
     if (!head.empty() && head != lengths)
       return fmt::format("its rows would end on Edge{}, where other rows end", edge.number);
     head = std::move(lengths);
-    const auto sum = [](const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
-    const double left = edge.length - sum(own.first) - sum(own.last);
+    const double left = edge.length - sum_of(own.first) - sum_of(own.last);
     if (left < std::max((1 - most_of_edge) * edge.length, line.heights.back()))
       return fmt::format("its rows would end on Edge{}, which is too short for them", edge.number);
     return {};

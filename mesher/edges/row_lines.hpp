@@ -14,6 +14,9 @@
 
 namespace quadrille {
 
+/// The total of heights or lengths.
+double sum_of(const std::vector<double>& lengths);
+
 /// Heights of the rows that layers request.
 std::vector<double> heights_of(const SizeLayers& layers);
 

@@ -50,63 +50,25 @@ struct Nearest {
   Vector3 point{0, 0, 0};
 };
 
-class SliverFinder {
- public:
-  SliverFinder(const CadShape& shape, const FaceFlags& used, double width)
-      : shape_(shape), used_(used), width_(width) {}
-
-  /// \param cuts gets the places that have to be divided first, if the face is a sliver otherwise
-  std::optional<Sliver> find(FaceId id, std::vector<Cut>& cuts) {
-    edges_.clear();
-    const CadFace& face = shape_.faces[id];
-    if (face.wires.empty() || face.wires.size() > 2 || !face.inner_vertices.empty()) return std::nullopt;
-    if (auto tube = find_tube(id)) return tube;
-    std::size_t first_wire = 0;
-    constexpr int coarse = 8, fine = 256;
-    for (const CadWire& wire : face.wires) {
-      if (!add_wire(wire)) return std::nullopt;
-      if (&wire == &face.wires.front()) first_wire = edges_.size();
-    }
-    if (edges_.size() < 2 || first_wire == 0 || !has_neighbors(id)) return std::nullopt;
-    for (LongEdge& edge : edges_) sample(edge, coarse);
-    if (!may_be_narrow()) return std::nullopt;
-    for (LongEdge& edge : edges_) sample(edge, fine);
-    const int n = static_cast<int>(edges_.size());
-    if (face.wires.size() == 2) {
-      if (first_wire == edges_.size()) return std::nullopt;
-      return zip(id, range(0, static_cast<int>(first_wire)), range(static_cast<int>(first_wire), n), cuts);
-    }
-    for (int first = 0; first < n; ++first) {
-      for (int second = first + 1; second < n; ++second) {
-        std::vector<int> other = range(second, n);
-        for (int k = 0; k < first; ++k) other.push_back(k);
-        if (auto sliver = zip(id, range(first, second), other, cuts)) return sliver;
-        if (!cuts.empty()) return std::nullopt;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  static std::vector<int> range(int from, int to) {
-    std::vector<int> result;
-    for (int i = from; i < to; ++i) result.push_back(i);
-    return result;
-  }
+/// Finds faces that lie along their seams.
+struct TubeFinder {
+  const CadShape& shape;
+  const FaceFlags& used;
+  double width;
 
   /// A face that lies along its seam, between ends that are small.
-  std::optional<Sliver> find_tube(FaceId id) const {
-    const CadFace& face = shape_.faces[id];
+  std::optional<Sliver> find(FaceId id) const {
+    const CadFace& face = shape.faces[id];
     Sliver tube;
     tube.face = id;
     EdgeId seam;
     bool has_neighbor = false;
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
-        const CadEdge& edge = shape_.edges[coedge.edge];
+        const CadEdge& edge = shape.edges[coedge.edge];
         if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
           return std::nullopt;
-        if (is_small(edge, width_)) {
+        if (is_small(edge, width)) {
           tube.rims.push_back(coedge.edge);
           has_neighbor |= std::any_of(edge.faces.begin(), edge.faces.end(),
                                       [&](FaceId other) { return other != id && is_large(other); });
@@ -117,16 +79,16 @@ class SliverFinder {
         }
       }
     }
-    const bool is_seam = seam.exists() && shape_.edges[seam].faces == std::vector<FaceId>{id, id};
-    if (!is_seam || !has_neighbor || !lies_along(face, shape_.edges[seam])) return std::nullopt;
+    const bool is_seam = seam.exists() && shape.edges[seam].faces == std::vector<FaceId>{id, id};
+    if (!is_seam || !has_neighbor || !lies_along(face, shape.edges[seam])) return std::nullopt;
     return tube;
   }
 
   bool is_large(FaceId face) const {
-    if (!used_[face]) return false;
-    for (const CadWire& wire : shape_.faces[face].wires) {
+    if (!used[face]) return false;
+    for (const CadWire& wire : shape.faces[face].wires) {
       for (const Coedge& coedge : wire.coedges) {
-        if (!is_small(shape_.edges[coedge.edge], width_)) return true;
+        if (!is_small(shape.edges[coedge.edge], width)) return true;
       }
     }
     return false;
@@ -145,7 +107,7 @@ class SliverFinder {
     const FaceSurface surface(face);
     const auto is_near = [&](const Vector3& point) {
       return std::any_of(on_edge.begin(), on_edge.end(),
-                         [&](const Vector3& other) { return (point - other).norm() < width_ + spacing; });
+                         [&](const Vector3& other) { return (point - other).norm() < width + spacing; });
     };
     for (int i = 0; i <= samples; ++i) {
       for (int k = 0; k <= samples; ++k) {
@@ -156,7 +118,49 @@ class SliverFinder {
     }
     return true;
   }
+};
 
+std::vector<int> range(int from, int to) {
+  std::vector<int> result;
+  for (int i = from; i < to; ++i) result.push_back(i);
+  return result;
+}
+
+/// Finds out whether a face is narrow between chains of its long edges.
+class SliverFinder {
+ public:
+  SliverFinder(const CadShape& shape, const FaceFlags& used, double width, FaceId id)
+      : shape_(shape), used_(used), width_(width), id_(id) {}
+
+  std::optional<Sliver> find(std::vector<Cut>& cuts) && {
+    const CadFace& face = shape_.faces[id_];
+    std::size_t first_wire = 0;
+    constexpr int coarse = 8, fine = 256;
+    for (const CadWire& wire : face.wires) {
+      if (!add_wire(wire)) return std::nullopt;
+      if (&wire == &face.wires.front()) first_wire = edges_.size();
+    }
+    if (edges_.size() < 2 || first_wire == 0 || !has_neighbors()) return std::nullopt;
+    for (LongEdge& edge : edges_) sample(edge, coarse);
+    if (!may_be_narrow()) return std::nullopt;
+    for (LongEdge& edge : edges_) sample(edge, fine);
+    const int n = static_cast<int>(edges_.size());
+    if (face.wires.size() == 2) {
+      if (first_wire == edges_.size()) return std::nullopt;
+      return zip(range(0, static_cast<int>(first_wire)), range(static_cast<int>(first_wire), n), cuts);
+    }
+    for (int first = 0; first < n; ++first) {
+      for (int second = first + 1; second < n; ++second) {
+        std::vector<int> other = range(second, n);
+        for (int k = 0; k < first; ++k) other.push_back(k);
+        if (auto sliver = zip(range(first, second), other, cuts)) return sliver;
+        if (!cuts.empty()) return std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
   /// Adds the long edges of a wire. Junction i lies before long edge i.
   bool add_wire(const CadWire& wire) {
     if (!wire.ordered || wire.coedges.size() > most_edges) return false;
@@ -181,21 +185,21 @@ class SliverFinder {
   }
 
   /// Whether no edge is a seam and at least one of them belongs to another face.
-  bool has_neighbors(FaceId id) const {
+  bool has_neighbors() const {
     bool any = false;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
         if (edges_[i].edge == edges_[k].edge) return false;
       }
-      any |= lies_beside(edges_[i].edge, id);
+      any |= lies_beside(edges_[i].edge);
     }
     return any;
   }
 
-  bool lies_beside(EdgeId edge, FaceId id) const {
+  bool lies_beside(EdgeId edge) const {
     const auto& faces = shape_.edges[edge].faces;
     return std::any_of(faces.begin(), faces.end(),
-                       [&](FaceId face) { return face != id && used_[face] != 0; });
+                       [&](FaceId face) { return face != id_ && used_[face] != 0; });
   }
 
   void sample(LongEdge& to, int intervals) const {
@@ -267,7 +271,7 @@ class SliverFinder {
   }
 
   /// Pairs the edges of two chains that lie along each other.
-  std::optional<Sliver> zip(FaceId id, const std::vector<int>& chain, const std::vector<int>& other,
+  std::optional<Sliver> zip(const std::vector<int>& chain, const std::vector<int>& other,
                             std::vector<Cut>& cuts) const {
     const double length = std::min(length_of(chain), length_of(other));
     const double reach = std::min(width_, length / slender);
@@ -285,7 +289,7 @@ class SliverFinder {
       cuts = std::move(found);
       return std::nullopt;
     }
-    return paired(id, chain, other, match);
+    return paired(chain, other, match);
   }
 
   /// Finds the junction of the other chain that faces each junction, or the place to divide an edge at.
@@ -312,11 +316,11 @@ class SliverFinder {
     return true;
   }
 
-  std::optional<Sliver> paired(FaceId id, const std::vector<int>& chain, const std::vector<int>& other,
+  std::optional<Sliver> paired(const std::vector<int>& chain, const std::vector<int>& other,
                                const std::map<int, int>& match) const {
     if (chain.size() != other.size()) return std::nullopt;
     Sliver sliver;
-    sliver.face = id;
+    sliver.face = id_;
     for (const int i : chain) {
       const LongEdge& edge = edges_[i];
       const auto facing = std::find_if(other.begin(), other.end(), [&](int k) {
@@ -324,7 +328,7 @@ class SliverFinder {
       });
       if (facing == other.end()) return std::nullopt;
       const LongEdge& across = edges_[*facing];
-      const bool lends = lies_beside(edge.edge, id);
+      const bool lends = lies_beside(edge.edge);
       sliver.pairs.push_back(
           {lends ? edge.edge : across.edge, lends ? across.edge : edge.edge, edge.forward == across.forward});
       if (match.at(edge.start) != edge.start) sliver.ties.push_back({edge.from, across.to});
@@ -336,8 +340,18 @@ class SliverFinder {
   const CadShape& shape_;
   const FaceFlags& used_;
   double width_;
-  std::vector<LongEdge> edges_;  // of the face that is looked at
+  FaceId id_;
+  std::vector<LongEdge> edges_;
 };
+
+/// \param cuts gets the places that have to be divided first, if the face is a sliver otherwise
+std::optional<Sliver> find_sliver(const CadShape& shape, const FaceFlags& used, double width, FaceId id,
+                                  std::vector<Cut>& cuts) {
+  const CadFace& face = shape.faces[id];
+  if (face.wires.empty() || face.wires.size() > 2 || !face.inner_vertices.empty()) return std::nullopt;
+  if (auto tube = TubeFinder{shape, used, width}.find(id)) return tube;
+  return SliverFinder(shape, used, width, id).find(cuts);
+}
 
 /// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.
 std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<Cut> cuts, double nearest) {
@@ -364,11 +378,10 @@ std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<Cut> 
 std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width) {
   std::vector<Sliver> result;
   if (!(width > 0)) return result;
-  SliverFinder finder(shape, used, width);
   for (const FaceId face : used.ids()) {
     std::vector<Cut> cuts;
     if (!used[face]) continue;
-    if (auto sliver = finder.find(face, cuts)) result.push_back(std::move(*sliver));
+    if (auto sliver = find_sliver(shape, used, width, face, cuts)) result.push_back(std::move(*sliver));
   }
   return result;
 }
@@ -380,12 +393,11 @@ std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const 
   if (!(width > 0)) return result;
   for (int pass = 0; pass < most_passes; ++pass) {
     const CadShape& now = result ? *result : shape;
-    SliverFinder finder(now, used, width);
     std::vector<Cut> all;
     for (const FaceId face : used.ids()) {
       std::vector<Cut> cuts;
       if (!used[face]) continue;
-      finder.find(face, cuts);
+      find_sliver(now, used, width, face, cuts);
       all.insert(all.end(), cuts.begin(), cuts.end());
     }
     if (all.empty()) break;

@@ -36,10 +36,6 @@ struct Waist {
   double narrowest = 1, mean = 1;
 };
 
-double distance_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
-  return (a + nearest_share(a, b, point) * (b - a) - point).norm();
-}
-
 /// \param along the sides from end to end, cut into pairs
 Waist waist_between(const CadShape& shape, std::span<const FacingPair> along) {
   constexpr int pieces_of_side = 16;
@@ -85,7 +81,7 @@ double shortest_segment(double length, const std::vector<double>& shares, const 
 }  // namespace
 
 bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                         const BoundaryNodes& nodes, const EdgeShares& shares, double aspect, double shortest,
+                         const PlannedSpacing& spacing, double aspect, double shortest,
                          IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
   // (chords) wanted and least segments for each whole edge
   IdVector<EdgeId, double> wanted(shape.edges.size()), least(shape.edges.size());
@@ -96,10 +92,11 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
         for (const SideEdge& edge : *side) {
           const double length = shape.edges[edge.edge].length;
           result.length += 0.5 * length;
-          result.divided |= nodes.edges[edge.edge].divided || nodes.edges[edge.edge].kept;
-          result.narrowest = std::min(
-              result.narrowest,
-              shortest_segment(length, shares[edge.edge], tables[edge.edge], chosen.counts[edge.edge]));
+          const EdgeId chord = chosen.chords.of(edge.edge);
+          result.divided |= spacing.divided[chord] || spacing.kept[chord];
+          result.narrowest =
+              std::min(result.narrowest, shortest_segment(length, spacing.shares[edge.edge],
+                                                          tables[edge.edge], chosen.counts[edge.edge]));
         }
       for (const SideEdge& edge : pair.first) result.rows += chosen.counts[edge.edge];
     }

@@ -19,6 +19,92 @@ namespace {
 /// Number of segments along a pole: as many as elements meet there, so that triangles fan out evenly.
 constexpr int pole_segments = 6;
 
+double scaled_distance(const FaceBoundary& boundary, const Vector2& scale, int a, int b) {
+  return (boundary.uv[a] - boundary.uv[b]).cwiseProduct(scale).norm();
+}
+
+/// A place inside the face, moved by whole periods into what the wires enclose.
+Vector2 enclosed(const FaceBoundary& boundary, const FaceSurface& surface, const Vector2& uv) {
+  const TrimmedDomain domain = enclosed_domain(boundary);
+  const Vector2 middle = 0.5 * (domain.low() + domain.high());
+  for (const int i : {0, -1, 1}) {
+    for (const int k : {0, -1, 1}) {
+      if ((i != 0 && !surface.u_periodic()) || (k != 0 && !surface.v_periodic())) continue;
+      Vector2 moved = uv;
+      if (surface.u_periodic())
+        moved.x() += surface.u_period() * (i + std::round((middle.x() - uv.x()) / surface.u_period()));
+      if (surface.v_periodic())
+        moved.y() += surface.v_period() * (k + std::round((middle.y() - uv.y()) / surface.v_period()));
+      if (domain.inside(moved)) return moved;
+    }
+  }
+  return uv;
+}
+
+/// Moves wires by whole periods to the widest one: in files, holes may be a period away. \param starts first
+/// point of each wire, then the number of points
+void gather_wires(FaceBoundary& boundary, const std::vector<int>& starts, int axis, double period) {
+  const auto bounds = [&](std::size_t wire) {
+    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
+                                    -std::numeric_limits<double>::infinity()};
+    for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
+      range.first = std::min(range.first, boundary.uv[i][axis]);
+      range.second = std::max(range.second, boundary.uv[i][axis]);
+    }
+    return range;
+  };
+  std::pair<double, double> widest{0, 0};
+  for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+    const auto range = bounds(wire);
+    if (range.second - range.first > widest.second - widest.first) widest = range;
+  }
+  for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
+    const auto [low, high] = bounds(wire);
+    // Moves only wires that lie outside entirely: one that reaches over an end belongs there.
+    if (!(low >= widest.second) && !(high <= widest.first)) continue;
+    const double away = 0.5 * (widest.first + widest.second - low - high);
+    const double shift = period * std::round(away / period);
+    for (int i = starts[wire]; i < starts[wire + 1]; ++i) boundary.uv[i][axis] += shift;
+    for (auto& segment : boundary.segments) {
+      if (segment.a >= starts[wire] && segment.a < starts[wire + 1]) segment.middle_uv[axis] += shift;
+    }
+  }
+}
+
+std::vector<int> numbers_to(int count) {
+  std::vector<int> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+/// Merges points where wires touch, as a hole and a seam may, and along slits.
+void join_touching(FaceBoundary& boundary, const Vector2& scale) {
+  constexpr double nearness = 0.01;  // in lengths of the shortest segment at the point
+  const auto distance = [&](int a, int b) { return scaled_distance(boundary, scale, a, b); };
+  std::vector<double> reach(boundary.size(), std::numeric_limits<double>::infinity());
+  for (const auto& segment : boundary.segments) {
+    const double length = nearness * distance(segment.a, segment.b);
+    for (const int i : {segment.a, segment.b}) reach[i] = std::min(reach[i], length);
+  }
+  std::vector<int> order = numbers_to(boundary.size()), target = order;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return boundary.nodes[a] < boundary.nodes[b]; });
+  std::vector<int> kept;  // points of the current node that are not joined to others
+  for (const int i : order) {
+    if (!kept.empty() && boundary.nodes[kept.front()] != boundary.nodes[i]) kept.clear();
+    const auto near = std::find_if(kept.begin(), kept.end(), [&](int other) {
+      return distance(other, i) <= std::min(reach[i], reach[other]);
+    });
+    if (near != kept.end()) {
+      target[i] = *near;
+      boundary.angles[*near] = 0;
+    } else {
+      kept.push_back(i);
+    }
+  }
+  unite_points(boundary, target);
+}
+
 class BoundaryWalker {
  public:
   BoundaryWalker(const CadShape& shape, FaceId id, const CadFace& face, const FaceSurface& surface,
@@ -34,12 +120,14 @@ class BoundaryWalker {
       walk_wire(wire);
     }
     starts.push_back(boundary_.size());
-    if (surface_.u_periodic()) gather_wires(starts, 0, surface_.u_period());
-    if (surface_.v_periodic()) gather_wires(starts, 1, surface_.v_period());
-    join_touching();
+    if (surface_.u_periodic()) gather_wires(boundary_, starts, 0, surface_.u_period());
+    if (surface_.v_periodic()) gather_wires(boundary_, starts, 1, surface_.v_period());
+    join_touching(boundary_, scale_);
     for (const InnerVertex& inner : face_.inner_vertices) {
       const int node = nodes_.vertex_nodes[inner.vertex];
-      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node]) : enclosed(inner.uv), node);
+      add_point(surface_.is_view() ? surface_.seen_at(nodes_.points[node])
+                                   : enclosed(boundary_, surface_, inner.uv),
+                node);
     }
     return std::move(boundary_);
   }
@@ -60,24 +148,6 @@ class BoundaryWalker {
     return boundary_.size() - 1;
   }
 
-  /// A place inside the face, moved by whole periods into what the wires enclose.
-  Vector2 enclosed(const Vector2& uv) const {
-    const TrimmedDomain domain = enclosed_domain(boundary_);
-    const Vector2 middle = 0.5 * (domain.low() + domain.high());
-    for (const int i : {0, -1, 1}) {
-      for (const int k : {0, -1, 1}) {
-        if ((i != 0 && !surface_.u_periodic()) || (k != 0 && !surface_.v_periodic())) continue;
-        Vector2 moved = uv;
-        if (surface_.u_periodic())
-          moved.x() += surface_.u_period() * (i + std::round((middle.x() - uv.x()) / surface_.u_period()));
-        if (surface_.v_periodic())
-          moved.y() += surface_.v_period() * (k + std::round((middle.y() - uv.y()) / surface_.v_period()));
-        if (domain.inside(moved)) return moved;
-      }
-    }
-    return uv;
-  }
-
   /// First gives each coedge its own end points, then joins consecutive coedges.
   void walk_wire(const CadWire& wire) {
     std::vector<Run> runs;
@@ -95,8 +165,9 @@ class BoundaryWalker {
     const std::size_t n = runs.size();
     if (gap && n > 0) runs[0].after_gap = true;
     for (std::size_t i = 1; i < n; ++i) unwrap(runs[i - 1], runs[i]);
-    for (std::size_t i = 0; i < n; ++i) join(runs[i], runs[(i + 1) % n]);
-    drop_joined();
+    std::vector<int> target = numbers_to(boundary_.size());
+    for (std::size_t i = 0; i < n; ++i) join(runs[i], runs[(i + 1) % n], target);
+    unite_points(boundary_, target);
   }
 
   /// Moves a coedge by whole periods to the end of the one before it: in files they may be periods apart.
@@ -239,19 +310,16 @@ class BoundaryWalker {
     return run;
   }
 
-  double scaled_distance(int a, int b) const {
-    return (boundary_.uv[a] - boundary_.uv[b]).cwiseProduct(scale_).norm();
-  }
-
   /// Merges the end of one coedge with the start of the next. A jump between them at the same node is a pole
-  /// that the file does not mark.
-  void join(const Run& run, const Run& next) {
+  /// that the file does not mark. \param target gets the point that takes the place of the end
+  void join(const Run& run, const Run& next, std::vector<int>& target) {
     const int a = run.last, b = next.first;
     if (a == b || boundary_.nodes[a] != boundary_.nodes[b]) return;
     const auto& last = boundary_.segments[run.end_segment - 1];
     const auto& first = boundary_.segments[next.first_segment];
-    const double nearby = std::max(scaled_distance(last.a, last.b), scaled_distance(first.a, first.b));
-    const double jump = scaled_distance(a, b);
+    const double nearby = std::max(scaled_distance(boundary_, scale_, last.a, last.b),
+                                   scaled_distance(boundary_, scale_, first.a, first.b));
+    const double jump = scaled_distance(boundary_, scale_, a, b);
     if (jump > 0.5 * nearby && !next.after_gap) {
       FaceBoundary::Segment gap;
       gap.a = a;
@@ -266,92 +334,7 @@ class BoundaryWalker {
       boundary_.angles[b] =
           M_PI - std::atan2(run.arriving.cross(next.leaving).dot(normal), run.arriving.dot(next.leaving));
     }
-    joined_.push_back({a, b});
-  }
-
-  /// Moves wires by whole periods to the widest one: in files, holes may be a period away.
-  void gather_wires(const std::vector<int>& starts, int axis, double period) {
-    const auto bounds = [&](std::size_t wire) {
-      std::pair<double, double> range{std::numeric_limits<double>::infinity(),
-                                      -std::numeric_limits<double>::infinity()};
-      for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
-        range.first = std::min(range.first, boundary_.uv[i][axis]);
-        range.second = std::max(range.second, boundary_.uv[i][axis]);
-      }
-      return range;
-    };
-    std::pair<double, double> widest{0, 0};
-    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
-      const auto range = bounds(wire);
-      if (range.second - range.first > widest.second - widest.first) widest = range;
-    }
-    for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
-      const auto [low, high] = bounds(wire);
-      // Moves only wires that lie outside entirely: one that reaches over an end belongs there.
-      if (!(low >= widest.second) && !(high <= widest.first)) continue;
-      const double away = 0.5 * (widest.first + widest.second - low - high);
-      const double shift = period * std::round(away / period);
-      for (int i = starts[wire]; i < starts[wire + 1]; ++i) boundary_.uv[i][axis] += shift;
-      for (auto& segment : boundary_.segments) {
-        if (segment.a >= starts[wire] && segment.a < starts[wire + 1]) segment.middle_uv[axis] += shift;
-      }
-    }
-  }
-
-  /// Merges points where wires touch, as a hole and a seam may, and along slits.
-  void join_touching() {
-    constexpr double nearness = 0.01;  // in lengths of the shortest segment at the point
-    std::vector<double> reach(boundary_.size(), std::numeric_limits<double>::infinity());
-    for (const auto& segment : boundary_.segments) {
-      const double length = nearness * scaled_distance(segment.a, segment.b);
-      for (const int i : {segment.a, segment.b}) reach[i] = std::min(reach[i], length);
-    }
-    std::vector<int> order(boundary_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return boundary_.nodes[a] < boundary_.nodes[b]; });
-    std::vector<int> kept;  // points of the current node that are not joined to others
-    for (const int i : order) {
-      if (!kept.empty() && boundary_.nodes[kept.front()] != boundary_.nodes[i]) kept.clear();
-      const auto near = std::find_if(kept.begin(), kept.end(), [&](int other) {
-        return scaled_distance(other, i) <= std::min(reach[i], reach[other]);
-      });
-      if (near != kept.end()) {
-        joined_.push_back({i, *near});
-        boundary_.angles[*near] = 0;
-      } else {
-        kept.push_back(i);
-      }
-    }
-    drop_joined();
-  }
-
-  /// Removes the points that were joined to others, and renumbers the rest.
-  void drop_joined() {
-    if (joined_.empty()) return;
-    std::vector<int> target(boundary_.size());
-    for (int i = 0; i < boundary_.size(); ++i) target[i] = i;
-    for (const auto& [from, to] : joined_) target[from] = to;
-    std::vector<int> renumbered(boundary_.size(), -1);
-    int n = 0;
-    for (int i = 0; i < boundary_.size(); ++i) {
-      if (target[i] != i) continue;
-      renumbered[i] = n;
-      boundary_.uv[n] = boundary_.uv[i];
-      boundary_.points[n] = boundary_.points[i];
-      boundary_.nodes[n] = boundary_.nodes[i];
-      boundary_.angles[n] = boundary_.angles[i];
-      ++n;
-    }
-    boundary_.uv.resize(n);
-    boundary_.points.resize(n);
-    boundary_.nodes.resize(n);
-    boundary_.angles.resize(n);
-    for (auto& segment : boundary_.segments) {
-      segment.a = renumbered[target[segment.a]];
-      segment.b = renumbered[target[segment.b]];
-    }
-    joined_.clear();
+    target[a] = b;
   }
 
   const CadShape& shape_;
@@ -361,7 +344,6 @@ class BoundaryWalker {
   Vector2 scale_;
   const BoundaryNodes& nodes_;
   FaceBoundary boundary_;
-  std::vector<std::pair<int, int>> joined_;
 };
 
 }  // namespace
@@ -381,6 +363,28 @@ FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& ca
     throw failure(name, fmt::format("the boundary of {} runs to infinity: the file may be damaged", name));
   }
   return boundary;
+}
+
+void unite_points(FaceBoundary& boundary, const std::vector<int>& target) {
+  std::vector<int> renumbered(boundary.size(), -1);
+  int n = 0;
+  for (int i = 0; i < boundary.size(); ++i) {
+    if (target[i] != i) continue;
+    renumbered[i] = n;
+    boundary.uv[n] = boundary.uv[i];
+    boundary.points[n] = boundary.points[i];
+    boundary.nodes[n] = boundary.nodes[i];
+    boundary.angles[n] = boundary.angles[i];
+    ++n;
+  }
+  boundary.uv.resize(n);
+  boundary.points.resize(n);
+  boundary.nodes.resize(n);
+  boundary.angles.resize(n);
+  for (auto& segment : boundary.segments) {
+    segment.a = renumbered[target[segment.a]];
+    segment.b = renumbered[target[segment.b]];
+  }
 }
 
 FaceBoundary halved(FaceBoundary boundary) {

@@ -4,9 +4,7 @@
 #include "mesher/faces/face_grid.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
@@ -27,103 +25,173 @@ Line turned(Line line) {
   return line;
 }
 
+/// The boundary of a face: a grid that has no quads yet, and the points of each loop.
+struct Outline {
+  FaceGrid grid;
+  std::vector<Line> loops;
+};
+
+/// The boundary's points and the middles of its segments, without quads, and its loops in the order of the
+/// wires; nothing if the segments do not make closed loops.
+std::optional<Outline> find_outline(const FaceBoundary& boundary) {
+  Outline result{{boundary.uv, boundary.points, boundary.nodes, {}}, {}};
+  auto& [grid, loops] = result;
+  int end = -1;
+  for (const auto& segment : boundary.segments) {
+    if (segment.degenerate || segment.internal) return std::nullopt;
+    if (loops.empty() || segment.a != end) {
+      if (!loops.empty() && loops.back().front() != end) return std::nullopt;
+      loops.emplace_back();
+    }
+    loops.back().push_back(segment.a);
+    end = segment.b;
+    if (segment.middle_node < 0) continue;
+    loops.back().push_back(static_cast<int>(grid.uv.size()));
+    grid.uv.push_back(segment.middle_uv);
+    grid.points.push_back(segment.middle_point);
+    grid.nodes.push_back(segment.middle_node);
+  }
+  if (loops.empty() || loops.back().front() != end) return std::nullopt;
+  std::size_t count = 0;
+  for (const Line& loop : loops) count += loop.size();
+  if (count != grid.nodes.size()) return std::nullopt;
+  return result;
+}
+
+/// The sides of the outer loop, from corner to corner.
+std::vector<Line> cut_loop(const FaceBoundary& boundary, const FaceSides& sides, const Line& loop) {
+  const int n = static_cast<int>(loop.size());
+  std::vector<Line> lines;
+  std::vector<int> corners;
+  for (const int start : sides.starts) {
+    const int segment = boundary.first_segments[sides.outer][start];
+    const auto it = std::find(loop.begin(), loop.end(), segment < 0 ? -1 : boundary.segments[segment].a);
+    if (it == loop.end()) return {};
+    corners.push_back(static_cast<int>(it - loop.begin()));
+  }
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    Line& line = lines.emplace_back();
+    for (int i = corners[k];; i = (i + 1) % n) {
+      line.push_back(loop[i]);
+      if (i == corners[(k + 1) % corners.size()]) break;
+    }
+  }
+  return lines;
+}
+
+/// The points around a block, counter-clockwise in cells.
+Line outline_of(const std::vector<Line>& rows, const HoleBlock& block) {
+  const int left = block.column, right = left + block.columns, low = block.row, high = low + block.rows;
+  Line line;
+  for (int i = left; i < right; ++i) line.push_back(rows[low][i]);
+  for (int j = low; j < high; ++j) line.push_back(rows[j][right]);
+  for (int i = right; i > left; --i) line.push_back(rows[high][i]);
+  for (int j = high; j > low; --j) line.push_back(rows[j][left]);
+  return line;
+}
+
+double cross(const FaceGrid& grid, int a, int b, int c) {
+  const Vector2 p = grid.uv[b] - grid.uv[a], q = grid.uv[c] - grid.uv[a];
+  return p.x() * q.y() - p.y() * q.x();
+}
+
+/// Twice the area that a closed line encloses in the parameter plane.
+double area_of(const FaceGrid& grid, const Line& line) {
+  double area = 0;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) area += cross(grid, line[0], line[k], line[k + 1]);
+  return area;
+}
+
+/// Removes the points inside that no quad uses.
+void drop_unused(FaceGrid& grid) {
+  std::vector<int> number(grid.uv.size(), -1);
+  for (const auto& quad : grid.quads) {
+    for (const int point : quad) number[point] = 0;
+  }
+  int kept = 0;
+  for (int i = 0; i < static_cast<int>(number.size()); ++i) {
+    if (i >= std::ssize(grid.nodes) && number[i] < 0) continue;
+    grid.uv[kept] = grid.uv[i];
+    grid.points[kept] = grid.points[i];
+    number[i] = kept++;
+  }
+  grid.uv.resize(kept);
+  grid.points.resize(kept);
+  for (auto& quad : grid.quads) {
+    for (int& point : quad) point = number[point];
+  }
+}
+
+/// Makes the quads counter-clockwise: a wire may run the wrong way around.
+void turn_to_left(FaceGrid& grid, SparseCheck& check) {
+  double area = 0;
+  for (const auto& [a, b, c, d] : grid.quads) {
+    check();
+    area += cross(grid, a, b, c) + cross(grid, a, c, d);
+  }
+  if (area >= 0) return;
+  for (auto& quad : grid.quads) std::swap(quad[1], quad[3]);
+}
+
+/// Whether all cells have a good shape in space and none is folded in the parameter plane.
+bool is_good(const FaceGrid& grid, SparseCheck& check) {
+  for (const auto& quad : grid.quads) {
+    check();
+    const auto& [a, b, c, d] = quad;
+    if (quad_scaled_jacobian(grid.points, quad) < least_jacobian) return false;
+    if (!(cross(grid, a, b, d) > 0) || !(cross(grid, c, d, b) > 0)) return false;
+  }
+  return true;
+}
+
+/// Whether at least nine tenths of the inner sides have about the wanted size. They may be as short as on
+/// the boundary if that has more nodes than wanted, as around a thin tube.
+bool follows_sizes(const FaceGrid& grid, const std::vector<Line>& loops, SizingField::Sampler& size_at,
+                   SparseCheck& check) {
+  const int boundary_count = static_cast<int>(grid.nodes.size());
+  const auto length = [&](int a, int b) { return (grid.points[b] - grid.points[a]).norm(); };
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Line& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      shortest = std::min(shortest, length(loop[i], loop[(i + 1) % loop.size()]));
+  }
+  int inner = 0, off = 0;
+  for (const auto& quad : grid.quads) {
+    check();
+    for (int k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      if (a < boundary_count || b < boundary_count || a > b) continue;
+      const double wanted = size_at(0.5 * (grid.points[a] + grid.points[b]));
+      ++inner;
+      off += length(a, b) < 0.5 * std::min(wanted, shortest) || length(a, b) > 1.6 * wanted;
+    }
+  }
+  return 10 * off <= inner;
+}
+
+/// Whether four sides have as many nodes as those opposite.
+bool face_each_other(const std::vector<Line>& sides) {
+  return sides.size() == 4 && sides[0].size() == sides[2].size() && sides[1].size() == sides[3].size();
+}
+
+/// Adds points and quads inside a boundary.
 class GridMaker {
  public:
-  GridMaker(const FaceBoundary& boundary, const FacePlan& plan, const FaceSurface& surface,
-            SizingField::Sampler& size_at, const ExecutionContext& context)
-      : boundary_(boundary),
-        plan_(plan),
-        sides_(plan.sides),
-        surface_(surface),
-        size_at_(size_at),
-        check_(context) {}
+  /// \param outline the boundary's points
+  GridMaker(FaceGrid outline, const FaceSurface& surface, SizingField::Sampler& size_at, SparseCheck& check)
+      : grid_(std::move(outline)), surface_(surface), size_at_(size_at), check_(check) {}
 
-  std::optional<FaceGrid> run() {
-    if (sides_.kind == GridKind::other || !find_loops()) return std::nullopt;
-    switch (sides_.kind) {
-      case GridKind::four:
-        if (!make_four()) return std::nullopt;
-        break;
-      case GridKind::ring:
-        if (!make_ring()) return std::nullopt;
-        break;
-      case GridKind::odd:
-        if (!make_odd()) return std::nullopt;
-        break;
-      case GridKind::holed:
-        // The grid can be judged only after nodes have been moved.
-        if (!make_holed() || !follows_sizes()) return std::nullopt;
-        drop_unused();
-        turn_to_left();
-        return std::move(grid_);
-      case GridKind::other:
-        return std::nullopt;
-    }
-    if (!is_good() || !follows_sizes()) return std::nullopt;
-    return std::move(grid_);
-  }
+  FaceGrid grid() && { return std::move(grid_); }
 
- private:
-  /// Collects the boundary's loops in the order of the wires, with the middle points of segments.
-  bool find_loops() {
-    grid_.uv = boundary_.uv;
-    grid_.points = boundary_.points;
-    grid_.nodes = boundary_.nodes;
-    for (const auto& segment : boundary_.segments) {
-      if (segment.degenerate || segment.internal) return false;
-      if (loops_.empty() || segment.a != end_) {
-        if (!loops_.empty() && loops_.back().front() != end_) return false;
-        loops_.emplace_back();
-      }
-      loops_.back().push_back(segment.a);
-      end_ = segment.b;
-      if (segment.middle_node < 0) continue;
-      loops_.back().push_back(static_cast<int>(grid_.uv.size()));
-      grid_.uv.push_back(segment.middle_uv);
-      grid_.points.push_back(segment.middle_point);
-      grid_.nodes.push_back(segment.middle_node);
-    }
-    if (loops_.empty() || loops_.back().front() != end_) return false;
-    boundary_count_ = static_cast<int>(grid_.uv.size());
-    std::size_t count = 0;
-    for (const Line& loop : loops_) count += loop.size();
-    return static_cast<int>(count) == boundary_count_;
-  }
-
-  /// The sides of the outer loop, from corner to corner.
-  std::vector<Line> cut_loop() const {
-    const Line& loop = loops_[sides_.outer];
-    const int n = static_cast<int>(loop.size());
-    std::vector<Line> lines;
-    std::vector<int> corners;
-    for (const int start : sides_.starts) {
-      const int segment = boundary_.first_segments[sides_.outer][start];
-      const auto it = std::find(loop.begin(), loop.end(), segment < 0 ? -1 : boundary_.segments[segment].a);
-      if (it == loop.end()) return {};
-      corners.push_back(static_cast<int>(it - loop.begin()));
-    }
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      Line& line = lines.emplace_back();
-      for (int i = corners[k];; i = (i + 1) % n) {
-        line.push_back(loop[i]);
-        if (i == corners[(k + 1) % corners.size()]) break;
-      }
-    }
-    return lines;
-  }
-
-  bool make_four() {
-    const std::vector<Line> sides = cut_loop();
-    if (loops_.size() != 1 || sides.size() != 4) return false;
-    if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return false;
+  bool make_four(const std::vector<Line>& sides) {
+    if (!face_each_other(sides)) return false;
     fill(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
     return true;
   }
 
   /// Makes rows between two loops, rotated so that the distances between their nodes are smallest.
-  bool make_ring() {
-    if (loops_.size() != 2 || loops_[0].size() != loops_[1].size()) return false;
-    Line outer = loops_[0], inner = turned(loops_[1]);
+  bool make_ring(const Line& outer, Line inner) {
+    if (outer.size() != inner.size()) return false;
     const int n = static_cast<int>(outer.size());
     std::rotate(inner.begin(), inner.begin() + nearest_shift(outer, inner).first, inner.end());
     const int mid = n / 2;
@@ -138,6 +206,54 @@ class GridMaker {
     return true;
   }
 
+  /// Meshes an outline with three or five corners as that many grids around one point.
+  bool make_odd(const std::vector<Line>& sides) {
+    const int k = static_cast<int>(sides.size());
+    if (k != 3 && k != 5) return false;
+    const auto middle = [&](const Line& feet) {
+      Vector2 sum(0, 0);
+      for (const int foot : feet) sum += grid_.uv[foot] / k;
+      return add_point(sum);
+    };
+    const auto row = [&](int from, int to, int segments) {
+      Line line{from};
+      for (int j = 1; j < segments; ++j)
+        line.push_back(add_between(from, to, static_cast<double>(j) / segments));
+      line.push_back(to);
+      return line;
+    };
+    return fill_around_point(sides, middle, row,
+                             [&](const Line& bottom, const Line& right, const Line& top, const Line& left) {
+                               fill(bottom, right, turned(top), turned(left));
+                             });
+  }
+
+  /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
+  bool make_holed(const std::vector<Line>& sides, const std::vector<Line>& loops, int outer,
+                  const std::vector<HoleBlock>& blocks) {
+    if (!face_each_other(sides)) return false;
+    const std::vector<Line> rows = rows_inside(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
+    const int columns = static_cast<int>(sides[0].size()) - 1,
+              row_count = static_cast<int>(sides[1].size()) - 1;
+    if (columns < 3 || row_count < 3) return false;
+    std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
+    auto block = blocks.begin();
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (static_cast<int>(i) == outer) continue;
+      if (block->around() != static_cast<int>(loops[i].size())) return false;
+      for (int j = block->row; j < block->row + block->rows; ++j)
+        std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
+      join_hole(outline_of(rows, *block++), loops[i]);
+    }
+    for (int j = 0; j < row_count; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        if (!covered[static_cast<std::size_t>(j) * columns + i]) add_cell(rows, i, j);
+      }
+    }
+    return true;
+  }
+
+ private:
   /// The places of rows between two points by the sizing field, as shares of the line in the parameter plane.
   std::vector<double> rows_between(int from, int to) {
     constexpr int steps_on_line = 32;
@@ -157,29 +273,6 @@ class GridMaker {
     }
     shares.push_back(1);
     return shares;
-  }
-
-  /// Meshes an outline with three or five corners as that many grids around one point.
-  bool make_odd() {
-    const std::vector<Line> sides = cut_loop();
-    const int k = static_cast<int>(sides.size());
-    if (loops_.size() != 1 || (k != 3 && k != 5)) return false;
-    const auto middle = [&](const Line& feet) {
-      Vector2 sum(0, 0);
-      for (const int foot : feet) sum += grid_.uv[foot] / k;
-      return add_point(sum);
-    };
-    const auto row = [&](int from, int to, int segments) {
-      Line line{from};
-      for (int j = 1; j < segments; ++j)
-        line.push_back(add_between(from, to, static_cast<double>(j) / segments));
-      line.push_back(to);
-      return line;
-    };
-    return fill_around_point(sides, middle, row,
-                             [&](const Line& bottom, const Line& right, const Line& top, const Line& left) {
-                               fill(bottom, right, turned(top), turned(left));
-                             });
   }
 
   int add_point(const Vector2& uv) {
@@ -238,50 +331,10 @@ class GridMaker {
     return rows;
   }
 
-  /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
-  bool make_holed() {
-    const std::vector<Line> sides = cut_loop();
-    if (sides.size() != 4 ||
-        static_cast<int>(loops_.size()) != static_cast<int>(boundary_.first_segments.size()))
-      return false;
-    if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return false;
-    const std::vector<Line> rows = rows_inside(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
-    const int columns = static_cast<int>(sides[0].size()) - 1,
-              row_count = static_cast<int>(sides[1].size()) - 1;
-    if (columns < 3 || row_count < 3) return false;
-    if (plan_.hole_blocks.size() + 1 != loops_.size()) return false;
-    std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
-    auto block = plan_.hole_blocks.begin();
-    for (std::size_t i = 0; i < loops_.size(); ++i) {
-      if (static_cast<int>(i) == sides_.outer) continue;
-      if (block->around() != static_cast<int>(loops_[i].size())) return false;
-      for (int j = block->row; j < block->row + block->rows; ++j)
-        std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
-      join_hole(outline_of(rows, *block++), loops_[i]);
-    }
-    for (int j = 0; j < row_count; ++j) {
-      for (int i = 0; i < columns; ++i) {
-        if (!covered[static_cast<std::size_t>(j) * columns + i]) add_cell(rows, i, j);
-      }
-    }
-    return true;
-  }
-
-  /// The points around a block, counter-clockwise in cells.
-  static Line outline_of(const std::vector<Line>& rows, const HoleBlock& block) {
-    const int left = block.column, right = left + block.columns, low = block.row, high = low + block.rows;
-    Line line;
-    for (int i = left; i < right; ++i) line.push_back(rows[low][i]);
-    for (int j = low; j < high; ++j) line.push_back(rows[j][right]);
-    for (int i = right; i > left; --i) line.push_back(rows[high][i]);
-    for (int j = high; j > low; --j) line.push_back(rows[j][left]);
-    return line;
-  }
-
   /// Makes rings of quads between the outline of a block and a hole with the same number of nodes.
   void join_hole(const Line& outline, Line hole) {
     const std::size_t n = hole.size();
-    if (area_of(hole) * area_of(outline) < 0) hole = turned(hole);
+    if (area_of(grid_, hole) * area_of(grid_, outline) < 0) hole = turned(hole);
     const auto [shift, way] = nearest_shift(outline, hole);
     std::rotate(hole.begin(), hole.begin() + shift, hole.end());
     double length = 0;
@@ -299,13 +352,6 @@ class GridMaker {
     }
     lines.push_back(hole);
     add_rows(lines);
-  }
-
-  /// Twice the area that a closed line encloses in the parameter plane.
-  double area_of(const Line& line) const {
-    double area = 0;
-    for (std::size_t k = 1; k + 1 < line.size(); ++k) area += cross(line[0], line[k], line[k + 1]);
-    return area;
   }
 
   /// Adds quads between consecutive closed lines.
@@ -338,87 +384,10 @@ class GridMaker {
     return {best, shortest};
   }
 
-  /// Removes the points inside that no quad uses.
-  void drop_unused() {
-    std::vector<int> number(grid_.uv.size(), -1);
-    for (const auto& quad : grid_.quads) {
-      for (const int point : quad) number[point] = 0;
-    }
-    int kept = 0;
-    for (int i = 0; i < static_cast<int>(number.size()); ++i) {
-      if (i >= boundary_count_ && number[i] < 0) continue;
-      grid_.uv[kept] = grid_.uv[i];
-      grid_.points[kept] = grid_.points[i];
-      number[i] = kept++;
-    }
-    grid_.uv.resize(kept);
-    grid_.points.resize(kept);
-    for (auto& quad : grid_.quads) {
-      for (int& point : quad) point = number[point];
-    }
-  }
-
-  double cross(int a, int b, int c) const {
-    const Vector2 p = grid_.uv[b] - grid_.uv[a], q = grid_.uv[c] - grid_.uv[a];
-    return p.x() * q.y() - p.y() * q.x();
-  }
-
-  /// Makes the quads counter-clockwise: a wire may run the wrong way around.
-  void turn_to_left() {
-    double area = 0;
-    for (const auto& [a, b, c, d] : grid_.quads) {
-      check_();
-      area += cross(a, b, c) + cross(a, c, d);
-    }
-    if (area >= 0) return;
-    for (auto& quad : grid_.quads) std::swap(quad[1], quad[3]);
-  }
-
-  /// Whether all cells have a good shape in space and none is folded in the parameter plane.
-  bool is_good() {
-    turn_to_left();
-    for (const auto& quad : grid_.quads) {
-      check_();
-      const auto& [a, b, c, d] = quad;
-      if (quad_scaled_jacobian(grid_.points, quad) < least_jacobian) return false;
-      if (!(cross(a, b, d) > 0) || !(cross(c, d, b) > 0)) return false;
-    }
-    return true;
-  }
-
-  /// Whether at least nine tenths of the inner sides have about the wanted size. They may be as short as on
-  /// the boundary if that has more nodes than wanted, as around a thin tube.
-  bool follows_sizes() {
-    const auto length = [&](int a, int b) { return (grid_.points[b] - grid_.points[a]).norm(); };
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Line& loop : loops_) {
-      for (std::size_t i = 0; i < loop.size(); ++i)
-        shortest = std::min(shortest, length(loop[i], loop[(i + 1) % loop.size()]));
-    }
-    int inner = 0, off = 0;
-    for (const auto& quad : grid_.quads) {
-      check_();
-      for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) % 4];
-        if (a < boundary_count_ || b < boundary_count_ || a > b) continue;
-        const double wanted = size_at_(0.5 * (grid_.points[a] + grid_.points[b]));
-        ++inner;
-        off += length(a, b) < 0.5 * std::min(wanted, shortest) || length(a, b) > 1.6 * wanted;
-      }
-    }
-    return 10 * off <= inner;
-  }
-
-  const FaceBoundary& boundary_;
-  const FacePlan& plan_;
-  const FaceSides& sides_;
+  FaceGrid grid_;
   const FaceSurface& surface_;
   SizingField::Sampler& size_at_;
-  SparseCheck check_;
-  FaceGrid grid_;
-  std::vector<Line> loops_;
-  int end_ = -1;
-  int boundary_count_ = 0;
+  SparseCheck& check_;
 };
 
 }  // namespace
@@ -426,7 +395,38 @@ class GridMaker {
 std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& plan,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context) {
-  return GridMaker(boundary, plan, surface, size_at, context).run();
+  const GridKind kind = plan.sides.kind;
+  std::optional<Outline> outline = kind == GridKind::other ? std::nullopt : find_outline(boundary);
+  if (!outline) return std::nullopt;
+  const auto& loops = outline->loops;
+  const int outer = plan.sides.outer;
+  SparseCheck check(context);
+  GridMaker maker(std::move(outline->grid), surface, size_at, check);
+  bool is_made = false;
+  if (kind == GridKind::ring) {
+    is_made = loops.size() == 2 && maker.make_ring(loops[0], turned(loops[1]));
+  } else {
+    const std::vector<Line> sides = cut_loop(boundary, plan.sides, loops[outer]);
+    if (kind == GridKind::holed)
+      is_made = loops.size() == boundary.first_segments.size() &&
+                loops.size() == plan.hole_blocks.size() + 1 &&
+                maker.make_holed(sides, loops, outer, plan.hole_blocks);
+    else
+      is_made =
+          loops.size() == 1 && (kind == GridKind::four ? maker.make_four(sides) : maker.make_odd(sides));
+  }
+  if (!is_made) return std::nullopt;
+  FaceGrid grid = std::move(maker).grid();
+  if (kind == GridKind::holed) {
+    // The shape can be judged only after nodes have been moved.
+    if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
+    drop_unused(grid);
+    turn_to_left(grid, check);
+    return grid;
+  }
+  turn_to_left(grid, check);
+  if (!is_good(grid, check) || !follows_sizes(grid, loops, size_at, check)) return std::nullopt;
+  return grid;
 }
 
 }  // namespace quadrille

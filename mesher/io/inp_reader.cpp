@@ -40,6 +40,105 @@ struct FileSet {
   std::vector<std::string> sets;  // in upper case
 };
 
+using Sets = std::map<std::string, FileSet>;  // by name in upper case
+
+std::string parameter(const std::string& text, const std::string& key) {
+  const std::size_t found = text.find("," + key + "=");
+  if (found == std::string::npos) return {};
+  const std::size_t begin = found + key.size() + 2;
+  return text.substr(begin, text.find(',', begin) - begin);
+}
+
+/// The set that the keyword's parameter names; null if there is no such parameter.
+FileSet* set_named(Sets& sets, std::string_view line, const std::string& text, const std::string& key) {
+  const std::string upper_name = parameter(text, key);
+  if (upper_name.empty()) return nullptr;
+  FileSet& set = sets[upper_name];
+  if (!set.name.empty()) return &set;
+  // `text` is the line in upper case without blanks and quotes; here the case is kept.
+  set.name =
+      without_blanks_and_quotes(line).substr(text.find("," + key + "=") + key.size() + 2, upper_name.size());
+  return &set;
+}
+
+/// 3, 4, 6, 8 or 9 for shells, membranes, rigid and plane elements of all kinds (S4R, CPS6M, CAX4P, DC2D4);
+/// 0 for others.
+int nodes_of_surface_element(const std::string& type) {
+  const std::regex pattern(
+      "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([34689])"
+      "[A-Z]*5?");
+  std::smatch match;
+  if (type.size() > 16) return 0;  // matching a long text takes too much stack
+  return std::regex_match(type, match, pattern) ? match[1].str()[0] - '0' : 0;
+}
+
+/// Cuts the next comma-separated field off the line and trims it.
+std::string_view field(std::string_view& line) {
+  const std::size_t comma = line.find(',');
+  const std::string_view result = trimmed(line.substr(0, comma));
+  line = comma == std::string_view::npos ? std::string_view{} : line.substr(comma + 1);
+  return result;
+}
+
+/// The sets that make up a set, itself first. Sets that are not in the file are skipped.
+std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_name) {
+  std::vector<std::string> names{upper_name};
+  std::set<std::string> known{upper_name};
+  std::vector<const FileSet*> parts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = sets.find(names[i]);
+    if (found == sets.end()) continue;
+    parts.push_back(&found->second);
+    for (const std::string& other : found->second.sets)
+      if (known.insert(other).second) names.push_back(other);
+  }
+  return parts;
+}
+
+/// Puts the members of a set into a group. \param put takes a number and a group; returns false if there is
+/// no such element or node.
+template <class Put>
+void assign_set(MeshBuilder& builder, const std::string& file, const Sets& sets,
+                const std::string& upper_name, const char* what, Put&& put) {
+  const std::string& name = sets.at(upper_name).name;
+  const int group = builder.group(name, 0);
+  for (const FileSet* part : parts_of(sets, upper_name))
+    for (const FileSet::Range& range : part->ranges)
+      for (std::int64_t member = range.first; member <= range.last; member += range.step) {
+        if (!put(member, group))
+          throw failure(file, fmt::format("{}: the set {} holds {} {}, which the file does not define", file,
+                                          name, what, member));
+        if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
+      }
+}
+
+/// All sets of a file.
+struct FileSets {
+  Sets of_elements, of_nodes;
+
+  /// Whether our own files always contain this set: of everything, or of the elements with a certain side on
+  /// an edge. Such sets are written anew, so they are not read.
+  bool is_made_anew(const std::string& upper_name) const {
+    if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
+    const std::size_t side = upper_name.rfind("_SIDE");
+    return side != std::string::npos && side + 6 == upper_name.size() &&
+           of_nodes.count(upper_name.substr(0, side)) > 0;
+  }
+
+  /// Puts the members of the sets into groups of the mesh. \param file its name
+  void assign(MeshBuilder& builder, const std::string& file) const {
+    for (const auto& [name, set] : of_elements)
+      if (!is_made_anew(name))
+        assign_set(builder, file, of_elements, name, "element",
+                   [&](std::int64_t member, int group) { return builder.put_element(member, group); });
+    // Our files repeat a set of elements as the set of their nodes under the same name.
+    for (const auto& [name, set] : of_nodes)
+      if (!is_made_anew(name) && of_elements.count(name) == 0)
+        assign_set(builder, file, of_nodes, name, "node",
+                   [&](std::int64_t member, int group) { return builder.put_node(member, group); });
+  }
+};
+
 class InpReader {
  public:
   InpReader(std::string_view bytes, const std::string& name) : cursor_(bytes, name), builder_(name) {}
@@ -54,7 +153,7 @@ class InpReader {
         read_data(line);
     }
     finish_element();
-    assign_sets();
+    sets_.assign(builder_, cursor_.name());
     return builder_.finish(notes);
   }
 
@@ -63,56 +162,23 @@ class InpReader {
 
   void begin_keyword(std::string_view line) {
     finish_element();
-    std::string text = upper_trimmed(line);
+    const std::string text = upper_trimmed(line);
     const auto keyword = std::string_view(text).substr(0, text.find(','));
     block_ = Block::other;
     if (keyword == "*NODE") {
       block_ = Block::nodes;
-      set_ = set_named(node_sets_, line, text, "NSET");
+      set_ = set_named(sets_.of_nodes, line, text, "NSET");
     } else if (keyword == "*ELEMENT") {
       begin_elements(text);
-      set_ = set_named(element_sets_, line, text, "ELSET");
+      set_ = set_named(sets_.of_elements, line, text, "ELSET");
     } else if (keyword == "*ELSET" || keyword == "*NSET") {
-      set_ = keyword == "*ELSET" ? set_named(element_sets_, line, text, "ELSET")
-                                 : set_named(node_sets_, line, text, "NSET");
+      set_ = keyword == "*ELSET" ? set_named(sets_.of_elements, line, text, "ELSET")
+                                 : set_named(sets_.of_nodes, line, text, "NSET");
       generated_ = text.find(",GENERATE") != std::string::npos;
       if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
       throw cursor_line("*INCLUDE is not supported: put the mesh into one file");
     }
-  }
-
-  static std::string parameter(const std::string& text, const std::string& key) {
-    const std::size_t found = text.find("," + key + "=");
-    if (found == std::string::npos) return {};
-    const std::size_t begin = found + key.size() + 2;
-    return text.substr(begin, text.find(',', begin) - begin);
-  }
-
-  using Sets = std::map<std::string, FileSet>;  // by name in upper case
-
-  /// The set that the keyword's parameter names; null if there is no such parameter.
-  static FileSet* set_named(Sets& sets, std::string_view line, const std::string& text,
-                            const std::string& key) {
-    const std::string upper_name = parameter(text, key);
-    if (upper_name.empty()) return nullptr;
-    FileSet& set = sets[upper_name];
-    if (!set.name.empty()) return &set;
-    // `text` is the line in upper case without blanks and quotes; here the case is kept.
-    set.name = without_blanks_and_quotes(line).substr(text.find("," + key + "=") + key.size() + 2,
-                                                      upper_name.size());
-    return &set;
-  }
-
-  /// 3, 4, 6, 8 or 9 for shells, membranes, rigid and plane elements of all kinds (S4R, CPS6M, CAX4P, DC2D4);
-  /// 0 for others.
-  static int nodes_of_surface_element(const std::string& type) {
-    static const std::regex pattern(
-        "(?:S|STRI|M3D|SFM3D|R3D|DS|CPS|CPE|CPEG|CAX|CGAX|DC2D|DCAX|AC2D|ACAX)([34689])"
-        "[A-Z]*5?");
-    std::smatch match;
-    if (type.size() > 16) return 0;  // matching a long text takes too much stack
-    return std::regex_match(type, match, pattern) ? match[1].str()[0] - '0' : 0;
   }
 
   void begin_elements(const std::string& text) {
@@ -154,14 +220,6 @@ class InpReader {
       case Block::other:
         return;
     }
-  }
-
-  /// Cuts the next comma-separated field off the line and trims it.
-  static std::string_view field(std::string_view& line) {
-    const std::size_t comma = line.find(',');
-    const std::string_view result = trimmed(line.substr(0, comma));
-    line = comma == std::string_view::npos ? std::string_view{} : line.substr(comma + 1);
-    return result;
   }
 
   template <class T>
@@ -240,59 +298,6 @@ class InpReader {
     }
   }
 
-  /// The sets that make up a set, itself first. Sets that are not in the file are skipped.
-  static std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_name) {
-    std::vector<std::string> names{upper_name};
-    std::set<std::string> known{upper_name};
-    std::vector<const FileSet*> parts;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto found = sets.find(names[i]);
-      if (found == sets.end()) continue;
-      parts.push_back(&found->second);
-      for (const std::string& other : found->second.sets)
-        if (known.insert(other).second) names.push_back(other);
-    }
-    return parts;
-  }
-
-  /// Puts the members of a set into a group. \param put takes a number and a group; returns false if there is
-  /// no such element or node.
-  template <class Put>
-  void assign(const Sets& sets, const std::string& upper_name, const char* what, Put&& put) {
-    const std::string& name = sets.at(upper_name).name;
-    const int group = builder_.group(name, 0);
-    for (const FileSet* part : parts_of(sets, upper_name))
-      for (const FileSet::Range& range : part->ranges)
-        for (std::int64_t member = range.first; member <= range.last; member += range.step) {
-          if (!put(member, group))
-            throw failure(cursor_.name(),
-                          fmt::format("{}: the set {} holds {} {}, which the file does not define",
-                                      cursor_.name(), name, what, member));
-          if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
-        }
-  }
-
-  /// Whether our own files always contain this set: of everything, or of the elements with a certain side on
-  /// an edge. Such sets are written anew, so they are not read.
-  bool is_made_anew(const std::string& upper_name) const {
-    if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
-    const std::size_t side = upper_name.rfind("_SIDE");
-    return side != std::string::npos && side + 6 == upper_name.size() &&
-           node_sets_.count(upper_name.substr(0, side)) > 0;
-  }
-
-  void assign_sets() {
-    for (const auto& [name, set] : element_sets_)
-      if (!is_made_anew(name))
-        assign(element_sets_, name, "element",
-               [this](std::int64_t member, int group) { return builder_.put_element(member, group); });
-    // Our files repeat a set of elements as the set of their nodes under the same name.
-    for (const auto& [name, set] : node_sets_)
-      if (!is_made_anew(name) && element_sets_.count(name) == 0)
-        assign(node_sets_, name, "node",
-               [this](std::int64_t member, int group) { return builder_.put_node(member, group); });
-  }
-
   /// An error in the line that was read last.
   Error cursor_line(const std::string& sentence) const { return cursor_.error_before(sentence); }
 
@@ -304,7 +309,7 @@ class InpReader {
   int read_numbers_ = 0;    // numbers read of the current element, with its own number
   FileSet* set_ = nullptr;  // receives the nodes, elements or numbers that follow
   bool generated_ = false;
-  Sets element_sets_, node_sets_;
+  FileSets sets_;
 };
 
 }  // namespace

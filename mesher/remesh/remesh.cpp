@@ -11,7 +11,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -30,7 +29,6 @@
 #include "mesher/quads/face_quads.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
 #include "mesher/quads/unfold_in_space.hpp"
-#include "mesher/remesh/feature_network.hpp"
 #include "mesher/remesh/fidelity.hpp"
 #include "mesher/remesh/patch_surface.hpp"
 #include "mesher/remesh/triangle_remesher.hpp"
@@ -149,268 +147,220 @@ std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
   return nodes;
 }
 
-class Remesher : public ShellGeometry {
- public:
-  Remesher(const ShellMesh& input, const RemeshOptions& options, std::vector<std::string>& notes,
-           ExecutionContext& context)
-      : input_(input), options_(options), notes_(notes), context_(context) {}
+/// The surface, cut into faces.
+struct Model {
+  SurfaceLocator locator;
+  TriangulatedSurface reference;  // cut along the curves; points move on it
+  Surface surface;
+  double least_side = 0;  // shortest side that a quad may have
+  FeatureNetwork network;
+  std::vector<int> face_numbers, edge_numbers, input_faces;  // by patch, curve, patch
+};
 
-  ShellMesh run(RemeshFidelity* fidelity) {
-    find_faces();
-    find_targets();
-    if (!options_.force) hold_budget();
-    // Where quads stay inverted the surface needs smaller ones.
-    constexpr int most_attempts = 4;
-    for (int attempt = 1;; ++attempt) {
-      make_triangles();
-      make_quads();
-      const std::vector<Vector3> inverted = inverted_places();
-      if (inverted.empty() || attempt == most_attempts) break;
-      refine_near(inverted);
+/// The sides of the surface that are segments of the input. \param node point of each of its nodes
+std::map<std::pair<int, int>, int> given_sides(const ShellMesh& input, const Surface& surface,
+                                               const std::vector<int>& node) {
+  std::map<std::pair<int, int>, int> wanted, result;
+  for (const ShellMesh::Segment& segment : input.segments) {
+    const int a = node[segment.nodes[0]], b = node[segment.nodes[1]];
+    if (a >= 0 && b >= 0 && a != b) wanted[std::minmax(a, b)] = segment.edge;
+  }
+  if (wanted.empty()) return result;
+  for (const auto& t : surface.mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = t[i], b = t[next_index(i)];
+      const auto found = wanted.find(std::minmax(surface.original[a], surface.original[b]));
+      if (found != wanted.end()) result[std::minmax(a, b)] = found->second;
     }
-    tell_off_surface();
-    check_doubled();
-    ShellMesh mesh = assemble(*this, nodes_, quads_, options_.order, context_);
-    const StageTimer timer(context_, Stage::assemble);
-    check_inverted(mesh);
-    if (rim_of(surface_.mesh.points, surface_.mesh.triangles).sides == 0)
-      if (const int open = rim_of(mesh.points, mesh.quads).sides; open > 0)
-        throw failure(
-            "",
-            fmt::format("the surface is closed, but {} sides of the mesh are open: use another size", open));
-    tell_straight_sides(mesh);
-    if (fidelity != nullptr) {
-      *fidelity = measure_fidelity(surface_.mesh, network_.patches, *locator_, mesh, patch_of_face_);
-      fidelity->surface_area = area_of(surface_.mesh);
+  }
+  return result;
+}
+
+/// The surface cut along its curves. Points move on it.
+TriangulatedSurface cut_reference(const Surface& surface, const FeatureNetwork& network) {
+  TriangleMesh mesh = surface.mesh;
+  mesh.tags = network.patches;
+  std::vector<std::array<int, 2>> sides;
+  for (const FeatureCurve& curve : network.curves)
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
+      sides.push_back({curve.points[k], curve.points[k + 1]});
+  return TriangulatedSurface(cut_surface(mesh, 0, std::move(sides)).mesh);
+}
+
+Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vector<std::string>& notes,
+                 ExecutionContext& context) {
+  const StageTimer timer(context, Stage::sample);
+  context.report(Stage::sample, 0);
+  TriangleInput triangles = triangle_input(input, options.merge, one_point * options.size, notes, context);
+  if (input.order == 2)
+    notes.push_back("the mesh is of second order: the surface is taken to be flat between its corner nodes");
+  Surface surface = oriented_surface(std::move(triangles.mesh), notes);
+  const double least_side = same_place * check_size(surface, options);
+  context.check();
+  FeatureRules rules;
+  rules.angle = options.feature_angle;
+  rules.size = options.size;
+  rules.fixed = surface.touches;
+  rules.sides = given_sides(input, surface, triangles.node);
+  FeatureNetwork network = find_features(surface.mesh, rules);
+  context.check();
+  std::vector<int> face_of_patch(network.patch_count), edge_of_curve;
+  for (std::size_t t = 0; t < network.patches.size(); ++t)
+    face_of_patch[network.patches[t]] = surface.mesh.tags[t];
+  for (const FeatureCurve& curve : network.curves) edge_of_curve.push_back(curve.edge);
+  std::vector<int> face_numbers = numbers_of(face_of_patch), edge_numbers = numbers_of(edge_of_curve);
+  return {SurfaceLocator(surface.mesh, network.patches, network.patch_count),
+          cut_reference(surface, network),
+          std::move(surface),
+          least_side,
+          std::move(network),
+          std::move(face_numbers),
+          std::move(edge_numbers),
+          std::move(face_of_patch)};
+}
+
+/// The longest sides of triangles with which each piece keeps its shape. Every piece gets at least four
+/// sides across its diagonal. Pieces without curves, such as rings and spheres, get about five around their
+/// mean thickness, unless their walls are thin. The mean thickness is twice the volume over the area.
+std::vector<double> longest_sides(const Model& model, double size) {
+  constexpr double least_across = 4, of_thickness = 1.2, least_of_size = 0.5;
+  std::vector<double> most = diagonals(model.surface);
+  for (double& length : most) length /= least_across;
+  std::vector<char> has_curve(most.size(), 0), on_curve(model.surface.mesh.points.size(), 0);
+  for (const FeatureCurve& curve : model.network.curves)
+    for (const int v : curve.points) on_curve[v] = 1;
+  std::vector<double> area(most.size(), 0), volume(most.size(), 0);
+  const auto& p = model.surface.mesh.points;
+  for (std::size_t t = 0; t < model.surface.pieces.size(); ++t) {
+    const int piece = model.surface.pieces[t];
+    const auto& [a, b, c] = model.surface.mesh.triangles[t];
+    const Vector3 twice = (p[b] - p[a]).cross(p[c] - p[a]);
+    area[piece] += 0.5 * twice.norm();
+    volume[piece] += twice.dot(p[a] - p[0]) / 6;
+    has_curve[piece] |= on_curve[a] | on_curve[b] | on_curve[c];
+  }
+  for (std::size_t piece = 0; piece < most.size(); ++piece)
+    if (!has_curve[piece])
+      most[piece] = std::min(most[piece], std::max(least_of_size * size,
+                                                   of_thickness * 2 * std::abs(volume[piece]) / area[piece]));
+  return most;
+}
+
+/// (points) wanted lengths of the sides of triangles.
+std::vector<double> find_targets(const Model& model, double size) {
+  std::vector<double> targets(model.surface.mesh.points.size(), 2 * size);
+  const std::vector<double> longest_of_piece = longest_sides(model, size);
+  for (std::size_t t = 0; t < model.surface.pieces.size(); ++t)
+    for (const int v : model.surface.mesh.triangles[t])
+      targets[v] = std::min(targets[v], longest_of_piece[model.surface.pieces[t]]);
+  return targets;
+}
+
+void hold_budget(const TriangleMesh& surface, const std::vector<double>& targets, int order) {
+  Budget budget;
+  // As measured on a sphere of 164 000 quads. Half of it is for measuring the distances.
+  budget.bytes_an_element = order == 2 ? 3300 : 1800;
+  double count = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto& p = surface.points;
+    const double side = std::min({targets[a], targets[b], targets[c]});
+    count += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm() / (0.25 * side * side);
+  }
+  hold_elements(count, budget, free_memory());
+}
+
+RemeshedTriangles make_triangles(const Model& model, const std::vector<double>& targets,
+                                 ExecutionContext& context) {
+  const StageTimer timer(context, Stage::triangulate);
+  std::vector<double> by_curve;
+  for (const FeatureCurve& curve : model.network.curves) {
+    double& least = by_curve.emplace_back(targets[curve.points.front()]);
+    for (const int v : curve.points) least = std::min(least, targets[v]);
+  }
+  TriangleMesh untagged = model.surface.mesh;
+  untagged.tags.clear();
+  return remesh_triangles(untagged, model.network, place_on_curves(model.network, by_curve), model.locator,
+                          targets, context);
+}
+
+/// Whether a quad is inverted, or has a side of no length. Unfolding looks only at shape, not at size.
+bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad, double least_side) {
+  for (int k = 0; k < 4; ++k)
+    if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side) return true;
+  return quad_scaled_jacobian(p, quad) <= 0;
+}
+
+/// A node of each quad that is spoiled or lies on another quad.
+std::vector<Vector3> inverted_places(const FaceMeshes& quads, double least_side) {
+  std::vector<Vector3> places;
+  for (const auto& piece : quads) {
+    for (const auto& quad : piece->quads)
+      if (is_spoiled(piece->points, quad, least_side)) places.push_back(piece->points[quad[0]]);
+    for (const int node : doubled_sides(piece->quads)) places.push_back(piece->points[node]);
+  }
+  return places;
+}
+
+/// Makes the targets near some places smaller.
+void refine_near(const std::vector<Vector3>& places, const std::vector<Vector3>& points, double size,
+                 std::vector<double>& targets, const ExecutionContext& context) {
+  constexpr double smaller = 0.6, reach = 3;
+  constexpr std::size_t most_places = 1000;
+  const std::size_t step = 1 + places.size() / most_places;
+  std::vector<char> near(targets.size(), 0);
+  for (std::size_t k = 0; k < places.size(); k += step) {
+    int nearest = -1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t v = 0; v < near.size(); ++v) {
+      const double distance = (points[v] - places[k]).norm();
+      if (distance < reach * size) near[v] = 1;
+      if (distance >= least) continue;
+      least = distance;
+      nearest = static_cast<int>(v);
     }
-    tell_faces(mesh);
-    keep_groups(mesh);
-    return mesh;
+    near[nearest] = 1;
+    context.check();
+  }
+  for (std::size_t v = 0; v < near.size(); ++v)
+    if (near[v]) targets[v] *= smaller;
+}
+
+void tell_off_surface(const FaceMeshes& quads, std::vector<std::string>& notes) {
+  std::ptrdiff_t off = 0;
+  for (const auto& piece : quads)
+    off += std::count_if(piece->off.begin(), piece->off.end(), [](double d) { return d > 0; });
+  if (off == 0) return;
+  notes.push_back(fmt::format(
+      "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
+      off));
+}
+
+/// Connected pieces of the patches, without sides on which they would meet themselves.
+struct Pieces {
+  std::vector<FaceTriangulation> triangulations;  ///< without parameters and normals of their points
+  IdVector<FaceId, int> patches;                  ///< (pieces) the patch of each
+  BoundaryNodes nodes;                            ///< corners, then along the curves
+};
+
+/// Cuts triangles along the curves, and numbers the nodes on the boundaries; the middles of sides are on the
+/// curves, or on the patches.
+class PieceCutter {
+ public:
+  PieceCutter(const Model& model, RemeshedTriangles triangles)
+      : model_(model), triangles_(std::move(triangles)) {}
+
+  Pieces run() && {
+    std::vector<std::array<int, 2>> sides;
+    for (const auto& side : triangles_.sides) sides.push_back(side.points);
+    split(cut_surface(triangles_.mesh, 0, std::move(sides)));
+    number_boundary();
+    return std::move(result_);
   }
 
  private:
-  void find_faces() {
-    const StageTimer timer(context_, Stage::sample);
-    context_.report(Stage::sample, 0);
-    TriangleInput triangles =
-        triangle_input(input_, options_.merge, one_point * options_.size, notes_, context_);
-    if (input_.order == 2)
-      notes_.push_back(
-          "the mesh is of second order: the surface is taken to be flat between its corner nodes");
-    surface_ = oriented_surface(std::move(triangles.mesh), notes_);
-    least_side_ = same_place * check_size(surface_, options_);
-    context_.check();
-    FeatureRules rules;
-    rules.angle = options_.feature_angle;
-    rules.size = options_.size;
-    rules.fixed = surface_.touches;
-    rules.sides = given_sides(triangles.node);
-    network_ = find_features(surface_.mesh, rules);
-    context_.check();
-    std::vector<int> face_of_patch(network_.patch_count), edge_of_curve;
-    for (std::size_t t = 0; t < network_.patches.size(); ++t)
-      face_of_patch[network_.patches[t]] = surface_.mesh.tags[t];
-    for (const FeatureCurve& curve : network_.curves) edge_of_curve.push_back(curve.edge);
-    face_numbers_ = numbers_of(face_of_patch);
-    edge_numbers_ = numbers_of(edge_of_curve);
-    input_faces_ = std::move(face_of_patch);
-    for (int patch = 0; patch < network_.patch_count; ++patch) patch_of_face_[face_numbers_[patch]] = patch;
-    locator_.emplace(surface_.mesh, network_.patches, network_.patch_count);
-  }
-
-  std::map<std::pair<int, int>, int> given_sides(const std::vector<int>& node) const {
-    std::map<std::pair<int, int>, int> wanted, result;
-    for (const ShellMesh::Segment& segment : input_.segments) {
-      const int a = node[segment.nodes[0]], b = node[segment.nodes[1]];
-      if (a >= 0 && b >= 0 && a != b) wanted[std::minmax(a, b)] = segment.edge;
-    }
-    if (wanted.empty()) return result;
-    for (const auto& t : surface_.mesh.triangles) {
-      for (int i = 0; i < 3; ++i) {
-        const int a = t[i], b = t[next_index(i)];
-        const auto found = wanted.find(std::minmax(surface_.original[a], surface_.original[b]));
-        if (found != wanted.end()) result[std::minmax(a, b)] = found->second;
-      }
-    }
-    return result;
-  }
-
-  void find_targets() {
-    targets_.assign(surface_.mesh.points.size(), 2 * options_.size);
-    const std::vector<double> longest_of_piece = longest_sides();
-    for (std::size_t t = 0; t < surface_.pieces.size(); ++t)
-      for (const int v : surface_.mesh.triangles[t])
-        targets_[v] = std::min(targets_[v], longest_of_piece[surface_.pieces[t]]);
-  }
-
-  void hold_budget() const {
-    Budget budget;
-    // As measured on a sphere of 164 000 quads. Half of it is for measuring the distances.
-    budget.bytes_an_element = options_.order == 2 ? 3300 : 1800;
-    double count = 0;
-    for (const auto& [a, b, c] : surface_.mesh.triangles) {
-      const auto& p = surface_.mesh.points;
-      const double side = std::min({targets_[a], targets_[b], targets_[c]});
-      count += 0.5 * (p[b] - p[a]).cross(p[c] - p[a]).norm() / (0.25 * side * side);
-    }
-    hold_elements(count, budget, free_memory());
-  }
-
-  /// The longest sides of triangles with which each piece keeps its shape. Every piece gets at least four
-  /// sides across its diagonal. Pieces without curves, such as rings and spheres, get about five around their
-  /// mean thickness, unless their walls are thin. The mean thickness is twice the volume over the area.
-  std::vector<double> longest_sides() const {
-    constexpr double least_across = 4, of_thickness = 1.2, least_of_size = 0.5;
-    std::vector<double> most = diagonals(surface_);
-    for (double& length : most) length /= least_across;
-    std::vector<char> has_curve(most.size(), 0), on_curve(surface_.mesh.points.size(), 0);
-    for (const FeatureCurve& curve : network_.curves)
-      for (const int v : curve.points) on_curve[v] = 1;
-    std::vector<double> area(most.size(), 0), volume(most.size(), 0);
-    const auto& p = surface_.mesh.points;
-    for (std::size_t t = 0; t < surface_.pieces.size(); ++t) {
-      const int piece = surface_.pieces[t];
-      const auto& [a, b, c] = surface_.mesh.triangles[t];
-      const Vector3 twice = (p[b] - p[a]).cross(p[c] - p[a]);
-      area[piece] += 0.5 * twice.norm();
-      volume[piece] += twice.dot(p[a] - p[0]) / 6;
-      has_curve[piece] |= on_curve[a] | on_curve[b] | on_curve[c];
-    }
-    for (std::size_t piece = 0; piece < most.size(); ++piece)
-      if (!has_curve[piece])
-        most[piece] =
-            std::min(most[piece], std::max(least_of_size * options_.size,
-                                           of_thickness * 2 * std::abs(volume[piece]) / area[piece]));
-    return most;
-  }
-
-  void make_triangles() {
-    const StageTimer timer(context_, Stage::triangulate);
-    std::vector<double> by_curve;
-    for (const FeatureCurve& curve : network_.curves) {
-      double& least = by_curve.emplace_back(targets_[curve.points.front()]);
-      for (const int v : curve.points) least = std::min(least, targets_[v]);
-    }
-    TriangleMesh untagged = surface_.mesh;
-    untagged.tags.clear();
-    triangles_ = remesh_triangles(untagged, network_, place_on_curves(network_, by_curve), *locator_,
-                                  targets_, context_);
-  }
-
-  /// Whether a quad is inverted, or has a side of no length. Unfolding looks only at shape, not at size.
-  bool is_spoiled(const std::vector<Vector3>& p, const std::array<int, 4>& quad) const {
-    for (int k = 0; k < 4; ++k)
-      if ((p[quad[(k + 1) % 4]] - p[quad[k]]).norm() < least_side_) return true;
-    return quad_scaled_jacobian(p, quad) <= 0;
-  }
-
-  /// A node of each quad that is spoiled or lies on another quad.
-  std::vector<Vector3> inverted_places() const {
-    std::vector<Vector3> places;
-    for (const auto& piece : quads_) {
-      for (const auto& quad : piece->quads)
-        if (is_spoiled(piece->points, quad)) places.push_back(piece->points[quad[0]]);
-      for (const int node : doubled_sides(piece->quads)) places.push_back(piece->points[node]);
-    }
-    return places;
-  }
-
-  void refine_near(const std::vector<Vector3>& places) {
-    constexpr double smaller = 0.6, reach = 3;
-    constexpr std::size_t most_places = 1000;
-    const std::size_t step = 1 + places.size() / most_places;
-    std::vector<char> near(targets_.size(), 0);
-    for (std::size_t k = 0; k < places.size(); k += step) {
-      int nearest = -1;
-      double least = std::numeric_limits<double>::infinity();
-      for (std::size_t v = 0; v < near.size(); ++v) {
-        const double distance = (surface_.mesh.points[v] - places[k]).norm();
-        if (distance < reach * options_.size) near[v] = 1;
-        if (distance >= least) continue;
-        least = distance;
-        nearest = static_cast<int>(v);
-      }
-      near[nearest] = 1;
-      context_.check();
-    }
-    for (std::size_t v = 0; v < near.size(); ++v)
-      if (near[v]) targets_[v] *= smaller;
-  }
-
-  void tell_off_surface() {
-    std::ptrdiff_t off = 0;
-    for (const auto& piece : quads_)
-      off += std::count_if(piece->off.begin(), piece->off.end(), [](double d) { return d > 0; });
-    if (off == 0) return;
-    notes_.push_back(fmt::format(
-        "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
-        off));
-  }
-
-  /// The surface cut along its curves. Points move on it.
-  TriangulatedSurface cut_reference() const {
-    TriangleMesh mesh = surface_.mesh;
-    mesh.tags = network_.patches;
-    std::vector<std::array<int, 2>> sides;
-    for (const FeatureCurve& curve : network_.curves)
-      for (std::size_t k = 0; k + 1 < curve.points.size(); ++k)
-        sides.push_back({curve.points[k], curve.points[k + 1]});
-    return TriangulatedSurface(cut_surface(mesh, 0, std::move(sides)).mesh);
-  }
-
-  void make_quads() {
-    const StageTimer timer(context_, Stage::mesh);
-    if (!reference_) reference_.emplace(cut_reference());
-    middle_places_.clear();
-    std::vector<std::array<int, 2>> sides;
-    for (const auto& side : triangles_.sides) sides.push_back(side.points);
-    const CutSurface cut = cut_surface(triangles_.mesh, 0, std::move(sides));
-    std::vector<FaceTriangulation> pieces = split_by_piece(cut);
-    number_boundary(pieces);
-    quads_.assign(pieces.size(), std::nullopt);
-    std::atomic<int> done{0};
-    for_each_id(quads_, [&](FaceId piece) {
-      quads_[piece] = quads_of(std::move(pieces[piece.index()]),
-                               PatchSurface(*reference_, *locator_, patch_of_piece_[piece]));
-      context_.report(Stage::mesh, static_cast<double>(++done) / static_cast<double>(pieces.size()));
-    });
-  }
-
-  FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface) const {
-    std::vector<Vector3>& points = triangulation.mesh.points;
-    for (std::size_t v = 0; v < points.size(); ++v) {
-      const Vector3 there =
-          surface.find(points[v], triangulation.uv.emplace_back(), triangulation.normals.emplace_back());
-      if (static_cast<int>(v) >= triangulation.boundary_count) points[v] = there;
-    }
-    for (FaceBoundary::Segment& segment : triangulation.segments) {
-      Vector3 normal;
-      surface.find(segment.middle_point, segment.middle_uv, normal);
-    }
-    triangulation.pole.assign(points.size(), 0);
-    FaceQuadsOptions options;
-    options.recombine = options_.recombine;
-    options.improve = options_.improve;
-    FaceQuads quads = quadrille::make_quads(std::move(triangulation), surface, options, context_);
-    const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
-                                                    std::numeric_limits<double>::infinity(), context_);
-    FaceMesh result;
-    result.points = std::move(quads.surface_mesh.mesh.points);
-    result.uv = std::move(quads.surface_mesh.parameters);
-    result.quads = std::move(quads.surface_mesh.mesh.quads);
-    result.pole = std::move(quads.pole);
-    result.nodes = std::move(quads.nodes);
-    if (std::count(moved.begin(), moved.end(), 1) == 0) return result;
-    result.off.assign(moved.size(), 0);
-    for (std::size_t v = 0; v < moved.size(); ++v)
-      if (moved[v])
-        result.off[v] = (surface.nearest(result.uv[v], result.points[v]) - result.points[v]).norm();
-    return result;
-  }
-
   /// The triangles and the boundary of each piece. Its points are renumbered, those on the boundary first.
   /// `nodes` and `middle_node` are points of the triangles and middle_node() of sides.
-  std::vector<FaceTriangulation> split_by_piece(const CutSurface& cut) {
+  void split(const CutSurface& cut) {
     std::unordered_map<std::uint64_t, int> side_of;
     for (std::size_t s = 0; s < triangles_.sides.size(); ++s)
       side_of[side_key(triangles_.sides[s].points[0], triangles_.sides[s].points[1])] = static_cast<int>(s);
@@ -422,12 +372,13 @@ class Remesher : public ShellGeometry {
     for (std::size_t t = 0; t < inner.size(); ++t) members[cut.mesh.tags[t]].push_back(static_cast<int>(t));
     const AngleSums angles = sum_angles();
     std::vector<int> local(cut.mesh.points.size(), -1);
-    std::vector<FaceTriangulation> pieces(cut.pieces);
-    patch_of_piece_.assign(cut.pieces, 0);
-    for (const FaceId p : patch_of_piece_.ids()) {
+    std::vector<FaceTriangulation>& pieces = result_.triangulations;
+    pieces.resize(cut.pieces);
+    result_.patches.assign(cut.pieces, 0);
+    for (const FaceId p : result_.patches.ids()) {
       FaceTriangulation& piece = pieces[p.index()];
       const std::vector<int>& triangles = members[p.index()];
-      const int patch = patch_of_piece_[p] = triangles_.mesh.tags[triangles.front()];
+      const int patch = result_.patches[p] = triangles_.mesh.tags[triangles.front()];
       const auto number = [&](int v) {
         if (local[v] >= 0) return;
         local[v] = static_cast<int>(piece.mesh.points.size());
@@ -463,7 +414,6 @@ class Remesher : public ShellGeometry {
       for (const int t : triangles)
         for (const int v : cut.mesh.triangles[t]) local[v] = -1;
     }
-    return pieces;
   }
 
   using AngleSums = std::map<std::pair<int, int>, double>;  // (patch, corner of the surface) -> angle
@@ -483,15 +433,15 @@ class Remesher : public ShellGeometry {
 
   AngleSums sum_angles() const {
     AngleSums sums;
-    for (std::size_t t = 0; t < surface_.mesh.triangles.size(); ++t) {
-      const auto& triangle = surface_.mesh.triangles[t];
+    for (std::size_t t = 0; t < model_.surface.mesh.triangles.size(); ++t) {
+      const auto& triangle = model_.surface.mesh.triangles[t];
       for (int i = 0; i < 3; ++i) {
         const int v = triangle[i];
-        if (!network_.corner[v]) continue;
-        const Vector3& p = surface_.mesh.points[v];
-        const Vector3 a = surface_.mesh.points[triangle[next_index(i)]] - p,
-                      b = surface_.mesh.points[triangle[previous_index(i)]] - p;
-        sums[{network_.patches[t], v}] += std::atan2(a.cross(b).norm(), a.dot(b));
+        if (!model_.network.corner[v]) continue;
+        const Vector3& p = model_.surface.mesh.points[v];
+        const Vector3 a = model_.surface.mesh.points[triangle[next_index(i)]] - p,
+                      b = model_.surface.mesh.points[triangle[previous_index(i)]] - p;
+        sums[{model_.network.patches[t], v}] += std::atan2(a.cross(b).norm(), a.dot(b));
       }
     }
     return sums;
@@ -507,8 +457,8 @@ class Remesher : public ShellGeometry {
       const auto& points = triangles_.mesh.points;
       middle_places_.push_back(
           side.curve >= 0
-              ? network_.curves[side.curve].at(0.5 * (side.from + side.to))
-              : locator_->nearest(patch, 0.5 * (points[side.points[0]] + points[side.points[1]])).point);
+              ? model_.network.curves[side.curve].at(0.5 * (side.from + side.to))
+              : model_.locator.nearest(patch, 0.5 * (points[side.points[0]] + points[side.points[1]])).point);
     }
     return found->second;
   }
@@ -516,18 +466,17 @@ class Remesher : public ShellGeometry {
   int middle_node(int side) const { return static_cast<int>(triangles_.mesh.points.size()) + side; }
 
   /// Numbers the nodes on the boundaries: corners, then along the curves.
-  void number_boundary(std::vector<FaceTriangulation>& pieces) {
-    nodes_ = {};
+  void number_boundary() {
     std::vector<int> node(triangles_.mesh.points.size() + triangles_.sides.size(), -1);
-    std::vector<int> joined(surface_.original.size(), -1);  // corners where the surface touches itself
+    std::vector<int> joined(model_.surface.original.size(), -1);  // corners where the surface touches itself
     const auto add = [&](int point, const Vector3& place, int corner) {
       if (node[point] >= 0) return;
-      int& same = corner >= 0 ? joined[surface_.original[corner]] : node[point];
+      int& same = corner >= 0 ? joined[model_.surface.original[corner]] : node[point];
       if (same < 0) {
-        same = static_cast<int>(nodes_.points.size());
-        nodes_.points.push_back(place);
+        same = static_cast<int>(result_.nodes.points.size());
+        result_.nodes.points.push_back(place);
         // The start of a closed curve without corners is not a corner.
-        if (corner >= 0 && network_.corner[corner]) nodes_.vertex_nodes.push_back(same);
+        if (corner >= 0 && model_.network.corner[corner]) result_.nodes.vertex_nodes.push_back(same);
       }
       node[point] = same;
     };
@@ -535,7 +484,7 @@ class Remesher : public ShellGeometry {
     for (std::size_t v = 0; v < points.size(); ++v)
       if (const int corner = triangles_.surface_corner[v]; corner >= 0)
         add(static_cast<int>(v), points[v], corner);
-    nodes_.edges.resize(network_.curves.size());
+    result_.nodes.edges.resize(model_.network.curves.size());
     for (std::size_t s = 0; s < triangles_.sides.size(); ++s) {
       const auto& side = triangles_.sides[s];
       const int middle = middle_node(static_cast<int>(s));
@@ -543,7 +492,7 @@ class Remesher : public ShellGeometry {
       add(middle, middle_places_[s], -1);
       add(side.points[1], points[side.points[1]], -1);
       if (side.curve < 0) continue;
-      BoundaryNodes::Edge& edge = nodes_.edges[EdgeId::from_index(side.curve)];
+      BoundaryNodes::Edge& edge = result_.nodes.edges[EdgeId::from_index(side.curve)];
       if (edge.nodes.empty()) {
         edge.nodes.push_back(node[side.points[0]]);
         edge.parameters.push_back(side.from);
@@ -551,130 +500,216 @@ class Remesher : public ShellGeometry {
       edge.nodes.insert(edge.nodes.end(), {node[middle], node[side.points[1]]});
       edge.parameters.insert(edge.parameters.end(), {0.5 * (side.from + side.to), side.to});
     }
-    for (FaceTriangulation& piece : pieces) {
+    for (FaceTriangulation& piece : result_.triangulations) {
       for (int& point : piece.nodes) point = node[point];
       for (FaceBoundary::Segment& segment : piece.segments) segment.middle_node = node[segment.middle_node];
     }
   }
 
-  std::shared_ptr<const MeshSurface> surface(FaceId piece, const FaceMesh&) const override {
-    return std::make_shared<const PatchSurface>(*reference_, *locator_, patch_of_piece_[piece]);
-  }
-  Vector3 middle(EdgeId curve, double from, double to) const override {
-    return network_.curves[curve.index()].at(0.5 * (from + to));
-  }
-  int number(FaceId piece) const override { return face_numbers_[patch_of_piece_[piece]]; }
-  int number(EdgeId curve) const override { return edge_numbers_[curve.index()]; }
-
-  void check_doubled() const {
-    for (const FaceId piece : quads_.ids()) {
-      const std::vector<int> doubled = doubled_sides(quads_[piece]->quads);
-      if (doubled.empty()) continue;
-      throw failure(fmt::format("Face{}", number(piece)),
-                    fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
-                                "smaller `size`, or another feature angle",
-                                number(piece), place_text(quads_[piece]->points[doubled.front()])));
-    }
-  }
-
-  void check_inverted(const ShellMesh& mesh) const {
-    int count = 0;
-    std::size_t first = 0;
-    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      if (!is_spoiled(mesh.points, mesh.quads[q])) continue;
-      if (count++ == 0) first = q;
-    }
-    if (count == 0) return;
-    const int face = mesh.quad_faces[first];
-    throw failure(fmt::format("Face{}", face),
-                  fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
-                              "{}: try a smaller `size`, or another feature angle",
-                              count, face, place_text(mesh.points[mesh.quads[first][0]])));
-  }
-
-  void tell_straight_sides(const ShellMesh& mesh) const {
-    int first = static_cast<int>(mesh.points.size()), count = 0;
-    for (const auto& midsides : mesh.midsides)
-      first = std::min(first, *std::min_element(midsides.begin(), midsides.end()));
-    double largest = 0;
-    for (const ShellMesh::OffGeometry& off : mesh.off_geometry) {
-      if (off.node < first) continue;
-      ++count;
-      largest = std::max(largest, off.distance);
-    }
-    if (count > 0)
-      notes_.push_back(fmt::format("{} midside nodes lie up to {} off the surface, so that no element folds",
-                                   count, number_text(largest)));
-  }
-
-  void tell_faces(ShellMesh& mesh) const {
-    std::map<int, ShellMesh::Face> faces;
-    for (const int number : face_numbers_) {
-      faces[number].face = number;
-      faces[number].status = FaceStatus::meshed;
-      faces[number].q_min = 1;
-    }
-    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      ShellMesh::Face& face = faces[mesh.quad_faces[q]];
-      ++face.quads;
-      face.q_min = std::min(face.q_min, quad_q(mesh.points, mesh.quads[q]));
-    }
-    for (auto& [number, face] : faces) mesh.faces.push_back(face);
-  }
-
-  /// Groups of faces and segments keep their extent. If any are left, each face, edge and vertex gets a group
-  /// of its own besides.
-  void keep_groups(ShellMesh& mesh) const {
-    std::vector<std::string> lost;
-    for (const ShellMesh::Group& group : input_.groups) {
-      ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
-      const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-          if (std::binary_search(group.entities.begin(), group.entities.end(), inputs(i)))
-            kept.entities.push_back(numbers[i]);
-      };
-      if (group.dimension == 2) take([&](std::size_t i) { return input_faces_[i]; }, face_numbers_);
-      if (group.dimension == 1) take([&](std::size_t i) { return network_.curves[i].edge; }, edge_numbers_);
-      std::sort(kept.entities.begin(), kept.entities.end());
-      if (kept.entities.empty())
-        lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
-      else
-        mesh.groups.push_back(std::move(kept));
-    }
-    if (!lost.empty())
-      notes_.push_back(
-          fmt::format("groups of nodes, and groups without elements of the surface, are left out: {}",
-                      fmt::join(lost, ", ")));
-    if (mesh.groups.empty()) return;
-    std::set<std::string> names;
-    for (const ShellMesh::Group& group : mesh.groups) names.insert(group.name);
-    const auto add = [&](const char* kind, int dimension, int number) {
-      const std::string name = fmt::format("{}{}", kind, number);
-      if (names.insert(name).second) mesh.groups.push_back({name, dimension, 0, {number}});
-    };
-    for (const int number : face_numbers_) add("Face", 2, number);
-    for (const int number : edge_numbers_) add("Edge", 1, number);
-    for (const ShellMesh::Corner& corner : mesh.corners) add("Vertex", 0, corner.vertex);
-  }
-
-  const ShellMesh& input_;
-  const RemeshOptions& options_;
-  std::vector<std::string>& notes_;
-  ExecutionContext& context_;
-  Surface surface_;
-  FeatureNetwork network_;
-  std::vector<int> face_numbers_, edge_numbers_, input_faces_;  // by patch, curve, patch
-  std::map<int, int> patch_of_face_;
-  std::optional<SurfaceLocator> locator_;
-  std::optional<TriangulatedSurface> reference_;
-  std::vector<double> targets_;  // by point of the surface
-  double least_side_ = 0;        // shortest side that a quad may have
+  const Model& model_;
   RemeshedTriangles triangles_;
   std::vector<Vector3> middle_places_;  // by side
-  IdVector<FaceId, int> patch_of_piece_;
-  FaceMeshes quads_;  // by piece
-  BoundaryNodes nodes_;
+  Pieces result_;
 };
+
+FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, const RemeshOptions& given,
+                  ExecutionContext& context) {
+  std::vector<Vector3>& points = triangulation.mesh.points;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const Vector3 there =
+        surface.find(points[v], triangulation.uv.emplace_back(), triangulation.normals.emplace_back());
+    if (static_cast<int>(v) >= triangulation.boundary_count) points[v] = there;
+  }
+  for (FaceBoundary::Segment& segment : triangulation.segments) {
+    Vector3 normal;
+    surface.find(segment.middle_point, segment.middle_uv, normal);
+  }
+  triangulation.pole.assign(points.size(), 0);
+  FaceQuadsOptions options;
+  options.recombine = given.recombine;
+  options.improve = given.improve;
+  FaceQuads quads = make_quads(std::move(triangulation), surface, options, context);
+  const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
+                                                  std::numeric_limits<double>::infinity(), context);
+  FaceMesh result;
+  result.points = std::move(quads.surface_mesh.mesh.points);
+  result.uv = std::move(quads.surface_mesh.parameters);
+  result.quads = std::move(quads.surface_mesh.mesh.quads);
+  result.pole = std::move(quads.pole);
+  result.nodes = std::move(quads.nodes);
+  if (std::count(moved.begin(), moved.end(), 1) == 0) return result;
+  result.off.assign(moved.size(), 0);
+  for (std::size_t v = 0; v < moved.size(); ++v)
+    if (moved[v]) result.off[v] = (surface.nearest(result.uv[v], result.points[v]) - result.points[v]).norm();
+  return result;
+}
+
+FaceMeshes quads_of_pieces(const Model& model, Pieces& pieces, const RemeshOptions& options,
+                           ExecutionContext& context) {
+  FaceMeshes quads(pieces.triangulations.size());
+  std::atomic<int> done{0};
+  for_each_id(quads, [&](FaceId piece) {
+    quads[piece] =
+        quads_of(std::move(pieces.triangulations[piece.index()]),
+                 PatchSurface(model.reference, model.locator, pieces.patches[piece]), options, context);
+    context.report(Stage::mesh, static_cast<double>(++done) / static_cast<double>(quads.size()));
+  });
+  return quads;
+}
+
+class ScanGeometry : public ShellGeometry {
+ public:
+  ScanGeometry(const Model& model, const IdVector<FaceId, int>& patches) : model_(model), patches_(patches) {}
+
+  std::shared_ptr<const MeshSurface> surface(FaceId piece, const FaceMesh&) const override {
+    return std::make_shared<const PatchSurface>(model_.reference, model_.locator, patches_[piece]);
+  }
+  Vector3 middle(EdgeId curve, double from, double to) const override {
+    return model_.network.curves[curve.index()].at(0.5 * (from + to));
+  }
+  int number(FaceId piece) const override { return model_.face_numbers[patches_[piece]]; }
+  int number(EdgeId curve) const override { return model_.edge_numbers[curve.index()]; }
+
+ private:
+  const Model& model_;
+  const IdVector<FaceId, int>& patches_;  // (pieces)
+};
+
+void check_doubled(const FaceMeshes& quads, const ShellGeometry& geometry) {
+  for (const FaceId piece : quads.ids()) {
+    const std::vector<int> doubled = doubled_sides(quads[piece]->quads);
+    if (doubled.empty()) continue;
+    throw failure(fmt::format("Face{}", geometry.number(piece)),
+                  fmt::format("quads of Face{} lie on one another at this size, the first at {}: try a "
+                              "smaller `size`, or another feature angle",
+                              geometry.number(piece), place_text(quads[piece]->points[doubled.front()])));
+  }
+}
+
+void check_inverted(const ShellMesh& mesh, double least_side) {
+  int count = 0;
+  std::size_t first = 0;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    if (!is_spoiled(mesh.points, mesh.quads[q], least_side)) continue;
+    if (count++ == 0) first = q;
+  }
+  if (count == 0) return;
+  const int face = mesh.quad_faces[first];
+  throw failure(fmt::format("Face{}", face),
+                fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
+                            "{}: try a smaller `size`, or another feature angle",
+                            count, face, place_text(mesh.points[mesh.quads[first][0]])));
+}
+
+void tell_straight_sides(const ShellMesh& mesh, std::vector<std::string>& notes) {
+  int first = static_cast<int>(mesh.points.size()), count = 0;
+  for (const auto& midsides : mesh.midsides)
+    first = std::min(first, *std::min_element(midsides.begin(), midsides.end()));
+  double largest = 0;
+  for (const ShellMesh::OffGeometry& off : mesh.off_geometry) {
+    if (off.node < first) continue;
+    ++count;
+    largest = std::max(largest, off.distance);
+  }
+  if (count > 0)
+    notes.push_back(fmt::format("{} midside nodes lie up to {} off the surface, so that no element folds",
+                                count, number_text(largest)));
+}
+
+void tell_faces(ShellMesh& mesh, const std::vector<int>& face_numbers) {
+  std::map<int, ShellMesh::Face> faces;
+  for (const int number : face_numbers) {
+    faces[number].face = number;
+    faces[number].status = FaceStatus::meshed;
+    faces[number].q_min = 1;
+  }
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    ShellMesh::Face& face = faces[mesh.quad_faces[q]];
+    ++face.quads;
+    face.q_min = std::min(face.q_min, quad_q(mesh.points, mesh.quads[q]));
+  }
+  for (auto& [number, face] : faces) mesh.faces.push_back(face);
+}
+
+/// Groups of faces and segments keep their extent. If any are left, each face, edge and vertex gets a group
+/// of its own besides.
+void keep_groups(const ShellMesh& input, const Model& model, std::vector<std::string>& notes,
+                 ShellMesh& mesh) {
+  std::vector<std::string> lost;
+  for (const ShellMesh::Group& group : input.groups) {
+    ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
+    const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (std::binary_search(group.entities.begin(), group.entities.end(), inputs(i)))
+          kept.entities.push_back(numbers[i]);
+    };
+    if (group.dimension == 2) take([&](std::size_t i) { return model.input_faces[i]; }, model.face_numbers);
+    if (group.dimension == 1)
+      take([&](std::size_t i) { return model.network.curves[i].edge; }, model.edge_numbers);
+    std::sort(kept.entities.begin(), kept.entities.end());
+    if (kept.entities.empty())
+      lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
+    else
+      mesh.groups.push_back(std::move(kept));
+  }
+  if (!lost.empty())
+    notes.push_back(
+        fmt::format("groups of nodes, and groups without elements of the surface, are left out: {}",
+                    fmt::join(lost, ", ")));
+  if (mesh.groups.empty()) return;
+  std::set<std::string> names;
+  for (const ShellMesh::Group& group : mesh.groups) names.insert(group.name);
+  const auto add = [&](const char* kind, int dimension, int number) {
+    const std::string name = fmt::format("{}{}", kind, number);
+    if (names.insert(name).second) mesh.groups.push_back({name, dimension, 0, {number}});
+  };
+  for (const int number : model.face_numbers) add("Face", 2, number);
+  for (const int number : model.edge_numbers) add("Edge", 1, number);
+  for (const ShellMesh::Corner& corner : mesh.corners) add("Vertex", 0, corner.vertex);
+}
+
+ShellMesh remesh_oriented(const ShellMesh& input, const RemeshOptions& options, RemeshFidelity* fidelity,
+                          std::vector<std::string>& notes, ExecutionContext& context) {
+  const Model model = find_faces(input, options, notes, context);
+  const TriangleMesh& surface = model.surface.mesh;
+  std::vector<double> targets = find_targets(model, options.size);
+  if (!options.force) hold_budget(surface, targets, options.order);
+  Pieces pieces;
+  FaceMeshes quads;
+  // Where quads stay inverted the surface needs smaller ones.
+  constexpr int most_attempts = 4;
+  for (int attempt = 1;; ++attempt) {
+    RemeshedTriangles triangles = make_triangles(model, targets, context);
+    const StageTimer timer(context, Stage::mesh);
+    pieces = PieceCutter(model, std::move(triangles)).run();
+    quads = quads_of_pieces(model, pieces, options, context);
+    const std::vector<Vector3> inverted = inverted_places(quads, model.least_side);
+    if (inverted.empty() || attempt == most_attempts) break;
+    refine_near(inverted, surface.points, options.size, targets, context);
+  }
+  const ScanGeometry geometry(model, pieces.patches);
+  tell_off_surface(quads, notes);
+  check_doubled(quads, geometry);
+  ShellMesh mesh = assemble(geometry, pieces.nodes, quads, options.order, context);
+  const StageTimer timer(context, Stage::assemble);
+  check_inverted(mesh, model.least_side);
+  if (rim_of(surface.points, surface.triangles).sides == 0)
+    if (const int open = rim_of(mesh.points, mesh.quads).sides; open > 0)
+      throw failure(
+          "",
+          fmt::format("the surface is closed, but {} sides of the mesh are open: use another size", open));
+  tell_straight_sides(mesh, notes);
+  if (fidelity != nullptr) {
+    std::map<int, int> patch_of_face;
+    for (int patch = 0; patch < model.network.patch_count; ++patch)
+      patch_of_face[model.face_numbers[patch]] = patch;
+    *fidelity = measure_fidelity(surface, model.network.patches, model.locator, mesh, patch_of_face);
+    fidelity->surface_area = area_of(surface);
+  }
+  tell_faces(mesh, model.face_numbers);
+  keep_groups(input, model, notes, mesh);
+  return mesh;
+}
 
 }  // namespace
 
@@ -682,7 +717,7 @@ ShellMesh remesh(const ShellMesh& input, const RemeshOptions& options, RemeshFid
                  std::vector<std::string>& notes, ExecutionContext& context) {
   check(options);
   return on_threads(context.threads(),
-                    [&] { return Remesher(input, options, notes, context).run(fidelity); });
+                    [&] { return remesh_oriented(input, options, fidelity, notes, context); });
 }
 
 }  // namespace quadrille

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <unordered_map>
@@ -74,44 +73,30 @@ std::array<int, 2> common_segments(const CadShape& shape, const BoundaryNodes& n
   return result;
 }
 
-class Joining {
+/// Faces that may be treated as one, and the sides along the edges between them.
+struct Candidates {
+  std::vector<CompositeFace> composites;
+  DirectedSides sides;
+};
+
+class CandidateFinder {
  public:
-  Joining(const CadShape& shape, const EdgeFlags& kept, const BoundaryNodes& nodes, FaceMeshes& faces,
-          const ExecutionContext& context)
+  CandidateFinder(const CadShape& shape, const EdgeFlags& kept, const BoundaryNodes& nodes,
+                  const FaceMeshes& faces, const ExecutionContext& context)
       : shape_(shape),
         kept_(kept),
         nodes_(nodes),
         faces_(faces),
         context_(context),
-        surfaces_(faces.size()),
-        edges_at_node_(nodes.edges_at_nodes()) {}
+        surfaces_(faces.size()) {}
 
-  std::vector<CompositeFace> run() {
-    std::vector<CompositeFace> result = find_composites();
-    std::vector<char> is_one(result.size(), 0);
-    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
-      context_.check();
-      std::optional<FaceMesh> mesh = join(result[i]);
-      if (!mesh) return;
-      for (const FaceId face : result[i].members) faces_[face].reset();
-      faces_[result[i].members.front()] = std::move(mesh);
-      is_one[i] = 1;
-    });
-    std::size_t next = 0;
-    std::erase_if(result, [&](const CompositeFace&) { return is_one[next++] == 0; });
-    return result;
-  }
-
- private:
-  // ---- which edges ----
-
-  std::vector<CompositeFace> find_composites() {
+  Candidates run() && {
     const std::vector<char> touched = nodes_of_poor_quads();
     std::vector<EdgeId> candidates;
     for (const EdgeId id : nodes_.edges.ids())
       if (is_eligible(id) && is_touched(id, touched) && is_smooth(id)) candidates.push_back(id);
-    find_sides(candidates);
-    std::erase_if(candidates, [&](EdgeId id) { return !has_sides(id); });
+    DirectedSides sides = find_sides(candidates);
+    std::erase_if(candidates, [&](EdgeId id) { return !has_sides(id, sides); });
     Sets sets(faces_.size());
     for (const EdgeId id : candidates)
       sets.union_set(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
@@ -126,11 +111,16 @@ class Joining {
       if (edges == edges_of.end()) continue;
       const auto [found, is_new] = place.try_emplace(set, result.size());
       if (is_new) result.emplace_back().edges = std::move(edges->second);
-      result[found->second].members.push_back(face);
+      CompositeFace& composite = result[found->second];
+      composite.members.push_back(face);
+      composite.own_surfaces.push_back(faces_[face]->surface);
+      composite.surfaces.push_back(faces_[face]->surface);
+      if (!composite.surfaces.back()) composite.surfaces.back() = surface_of(face);
     }
-    return result;
+    return {std::move(result), std::move(sides)};
   }
 
+ private:
   std::vector<char> nodes_of_poor_quads() const {
     std::vector<char> touched(nodes_.points.size(), 0);
     SparseCheck check(context_, 256);
@@ -195,7 +185,8 @@ class Joining {
     return Vector3::Zero();
   }
 
-  void find_sides(const std::vector<EdgeId>& edges) {
+  DirectedSides find_sides(const std::vector<EdgeId>& edges) const {
+    DirectedSides sides;
     std::vector<char> is_on(nodes_.points.size(), 0);
     FaceFlags is_member(faces_.size(), 0);
     for (const EdgeId id : edges) {
@@ -210,27 +201,76 @@ class Joining {
         for (int k = 0; k < 4; ++k) {
           const int from = quad[k], to = quad[(k + 1) & 3];
           if (from < fixed && to < fixed && is_on[mesh.nodes[from]] && is_on[mesh.nodes[to]])
-            sides_.add(mesh.nodes[from], mesh.nodes[to], {face, from, to});
+            sides.add(mesh.nodes[from], mesh.nodes[to], {face, from, to});
         }
       }
     }
+    return sides;
   }
 
   /// Whether each segment of an edge is a side of one quad of each of its faces, in opposite directions.
-  bool has_sides(EdgeId id) const {
+  bool has_sides(EdgeId id, const DirectedSides& sides) const {
     const auto& nodes = nodes_.edges[id].nodes;
     const auto& faces = shape_.edges[id].faces;
     const auto [first, last] = common_segments(shape_, nodes_, id);
     for (int k = first; k < last; ++k) {
-      for (const FaceSideUse* side :
-           {sides_.find(nodes[k], nodes[k + 1]), sides_.find(nodes[k + 1], nodes[k])})
+      for (const FaceSideUse* side : {sides.find(nodes[k], nodes[k + 1]), sides.find(nodes[k + 1], nodes[k])})
         if (side == nullptr || (side->face != faces[0] && side->face != faces[1])) return false;
     }
     return true;
   }
 
-  // ---- several faces as one ----
+  const CadShape& shape_;
+  const EdgeFlags& kept_;
+  const BoundaryNodes& nodes_;
+  const FaceMeshes& faces_;
+  const ExecutionContext& context_;
+  IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
+  const std::vector<char> edges_at_node_ = nodes_.edges_at_nodes();  // (nodes)
+};
 
+/// (points) 1 = on a side that only one quad has. Empty if a side or a point is used more often than on a
+/// manifold.
+std::optional<std::vector<char>> boundary_points(const std::vector<std::array<int, 4>>& quads, int count) {
+  std::vector<char> starts(count, 0), fixed(count, 0);
+  bool is_manifold = true;
+  const auto start = [&](Side side) { return quads[element_of(side)][index_of(side)]; };
+  const auto look_at = [&](int low, int high, std::span<const Side> sides) {
+    if (low == high && sides.size() == 1) return;
+    if (sides.size() == 1) {
+      is_manifold = is_manifold && starts[start(sides[0])]++ == 0;
+      fixed[low] = fixed[high] = 1;
+    } else {
+      is_manifold = is_manifold && sides.size() == 2 && start(sides[0]) != start(sides[1]);
+    }
+  };
+  for_each_shared_side(count, no_check, look_at, quads);
+  if (!is_manifold) return std::nullopt;
+  return fixed;
+}
+
+class Joining {
+ public:
+  Joining(const CadShape& shape, const BoundaryNodes& nodes, const DirectedSides& sides, FaceMeshes& faces)
+      : shape_(shape), nodes_(nodes), sides_(sides), faces_(faces), edges_at_node_(nodes.edges_at_nodes()) {}
+
+  /// \return the composites that make a surface
+  std::vector<CompositeFace> run(std::vector<CompositeFace> result, const ExecutionContext& context) {
+    std::vector<char> is_one(result.size(), 0);
+    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
+      context.check();
+      std::optional<FaceMesh> mesh = join(result[i]);
+      if (!mesh) return;
+      for (const FaceId face : result[i].members) faces_[face].reset();
+      faces_[result[i].members.front()] = std::move(mesh);
+      is_one[i] = 1;
+    });
+    std::size_t next = 0;
+    std::erase_if(result, [&](const CompositeFace&) { return is_one[next++] == 0; });
+    return result;
+  }
+
+ private:
   /// Empty if the faces do not make a surface that is a manifold.
   std::optional<FaceMesh> join(CompositeFace& composite) {
     IdVector<FaceId, int> offset(faces_.size(), -1);
@@ -238,9 +278,6 @@ class Joining {
     for (const FaceId face : composite.members) {
       offset[face] = count;
       count += static_cast<int>(faces_[face]->points.size());
-      const auto& own = faces_[face]->surface;
-      composite.own_surfaces.push_back(own);
-      composite.surfaces.push_back(own ? own : surface_of(face));
     }
     Sets sets(count);
     for (const EdgeId id : composite.edges) {
@@ -261,7 +298,12 @@ class Joining {
       }
     std::optional<std::vector<char>> fixed = boundary_points(quads, count);
     if (!fixed) return std::nullopt;
-    fix_vertices(composite, offset, sets, *fixed);
+    // CAD vertices keep their nodes.
+    for (const FaceId face : composite.members) {
+      const std::vector<int>& nodes = faces_[face]->nodes;
+      for (std::size_t p = 0; p < nodes.size(); ++p)
+        if (edges_at_node_[nodes[p]] == 2) (*fixed)[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
+    }
     FaceMesh mesh;
     std::vector<int> index(count, -1);
     for (const bool boundary : {true, false}) {
@@ -289,37 +331,6 @@ class Joining {
       return std::nullopt;  // quads with two sides in common make triangles that are not manifold
     }
     return mesh;
-  }
-
-  /// CAD vertices keep their nodes.
-  void fix_vertices(const CompositeFace& composite, const IdVector<FaceId, int>& offset, Sets& sets,
-                    std::vector<char>& fixed) const {
-    for (const FaceId face : composite.members) {
-      const std::vector<int>& nodes = faces_[face]->nodes;
-      for (std::size_t p = 0; p < nodes.size(); ++p)
-        if (edges_at_node_[nodes[p]] == 2) fixed[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
-    }
-  }
-
-  /// (points) 1 = on a side that only one quad has. Empty if a side or a point is used more often than on a
-  /// manifold.
-  static std::optional<std::vector<char>> boundary_points(const std::vector<std::array<int, 4>>& quads,
-                                                          int count) {
-    std::vector<char> starts(count, 0), fixed(count, 0);
-    bool is_manifold = true;
-    const auto start = [&](Side side) { return quads[element_of(side)][index_of(side)]; };
-    const auto look_at = [&](int low, int high, std::span<const Side> sides) {
-      if (low == high && sides.size() == 1) return;
-      if (sides.size() == 1) {
-        is_manifold = is_manifold && starts[start(sides[0])]++ == 0;
-        fixed[low] = fixed[high] = 1;
-      } else {
-        is_manifold = is_manifold && sides.size() == 2 && start(sides[0]) != start(sides[1]);
-      }
-    };
-    for_each_shared_side(count, no_check, look_at, quads);
-    if (!is_manifold) return std::nullopt;
-    return fixed;
   }
 
   void add_surface(CompositeFace& composite, FaceMesh& mesh) const {
@@ -357,13 +368,10 @@ class Joining {
   }
 
   const CadShape& shape_;
-  const EdgeFlags& kept_;
   const BoundaryNodes& nodes_;
+  const DirectedSides& sides_;
   FaceMeshes& faces_;
-  const ExecutionContext& context_;
-  IdVector<FaceId, std::shared_ptr<const FaceSurface>> surfaces_;
   const std::vector<char> edges_at_node_;  // (nodes) see BoundaryNodes::edges_at_nodes()
-  DirectedSides sides_;
 };
 
 class Splitting {
@@ -544,7 +552,8 @@ class Splitting {
 std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFlags& kept,
                                              const BoundaryNodes& nodes, FaceMeshes& faces,
                                              const ExecutionContext& context) {
-  return Joining(shape, kept, nodes, faces, context).run();
+  Candidates candidates = CandidateFinder(shape, kept, nodes, faces, context).run();
+  return Joining(shape, nodes, candidates.sides, faces).run(std::move(candidates.composites), context);
 }
 
 std::vector<EdgeId> split_faces(const CadShape& shape, const std::vector<CompositeFace>& composites,

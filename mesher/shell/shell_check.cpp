@@ -135,9 +135,7 @@ class ShellCheck {
   static double distance_to(const std::vector<Vector3>& line, const Vector3& point) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      least = std::min(
-          least,
-          (line[i] + nearest_share(line[i], line[i + 1], point) * (line[i + 1] - line[i]) - point).norm());
+      least = std::min(least, distance_to_segment(point, line[i], line[i + 1]));
     return least;
   }
 
