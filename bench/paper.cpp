@@ -38,9 +38,10 @@
 #include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/renumbering.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
-#include "mesher/pairing/paper_steps.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
+
+#include "bench/paper_steps.hpp"  // after CGAL's headers, which do not stand OpenCASCADE's before them
 
 namespace quadrille::bench {
 

@@ -1,7 +1,7 @@
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), sections 2.4
 /// and 3.
 
-#include "mesher/pairing/paper_steps.hpp"
+#include "bench/paper_steps.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 /// The paper's collapse of boundary triangles and its smoothing.
 
-#include "mesher/pairing/paper_steps.hpp"
+#include "bench/paper_steps.hpp"
 
 #include <gtest/gtest.h>
 
