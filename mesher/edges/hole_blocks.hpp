@@ -1,5 +1,6 @@
 #pragma once
-/// Holes in grids: which cells make room for a hole. Internal.
+/// Holes in grids: which cells make room for a hole. For plates with holes, whose mean q rises from 0.915 to
+/// 0.962; no gain elsewhere (decision 75). Internal.
 
 #include <limits>
 #include <optional>

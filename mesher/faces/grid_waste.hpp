@@ -1,5 +1,6 @@
 #pragma once
-/// When a grid has far more quads than the sizes request, so that another mesh replaces it. Internal.
+/// When a grid has far more quads than the sizes request, so that another mesh replaces it: for edges that
+/// users make fine (decision 75). Internal.
 
 namespace quadrille {
 

@@ -60,7 +60,7 @@ bool FaceJudge::is_doubtful(const FaceMesh& grid, const FacePlan& plan) {
 bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
-  if (thresholds.gain * left < outside_) return true;
+  if ((share < 1 ? 1 : thresholds.gain) * left < outside_) return true;
   return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, thresholds.most_outside / share);
 }
 

@@ -14,7 +14,7 @@ namespace quadrille {
 /// 150th of their diagonals.
 struct FaceThresholds {
   /// A grid is kept without a look at other meshes up to this share of quads outside the limits.
-  double outside_of_grid = 0.05;
+  double outside_of_grid = 0.02;
   /// The share outside the limits in a grid must fall by this factor with another mesh.
   double gain = 2;
   /// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
