@@ -293,11 +293,17 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   constexpr double worth_volume = 0.01, worth_stiffness = 0.02;
   FilletsByFace open = find_fillets(skin, walls, faces), closed;
   Fillets result;
+  if (open.empty()) return result;
   auto& beside = result.beside;
-  double held = 0;  // in closed sections
-  for (const auto& [face, fillet] : open) {
+  double held = 0, held_closed = 0;
+  for (const auto& [face, fillet] : open) held += fillet.volume;
+  // The rounding outside of a bend takes off what the one inside adds.
+  const double there = volume - shell_volume(faces) + counted_twice(skin, walls, faces, {}).sum();
+  const double left_over = std::clamp(there / held, 0.0, 1.0);
+  for (auto& [face, fillet] : open) {
     beside[walls_of(fillet.borders)] += fillet.volume;
-    held += fillet.closed ? fillet.volume : 0;
+    held_closed += fillet.closed ? fillet.volume : 0;
+    if (!fillet.closed) fillet.volume *= left_over;
   }
   for (auto it = open.begin(); it != open.end();) {
     const auto fillet = it++;
@@ -307,7 +313,7 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
     return volume - shell_volume(from) + counted_twice(skin, walls, from, result).sum();
   };
   if (stiffening(open, walls, faces) < worth_stiffness) open.clear();
-  if (held < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
+  if (held_closed < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
   if (open.empty() && closed.empty()) return result;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
@@ -356,7 +362,7 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   for (const auto& [face, fillet] : left) result.left_out.insert(face);
   if (cut.empty()) return result;
   // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
-  if (!closed.empty()) add(closed, std::clamp(missing(cut) / held, 0.0, 1.0));
+  if (!closed.empty()) add(closed, std::clamp(missing(cut) / held_closed, 0.0, 1.0));
   drop_traces(cut);
   orient_alike(cut);
   faces = std::move(cut);

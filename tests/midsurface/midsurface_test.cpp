@@ -602,7 +602,7 @@ TEST(MidSurface, OfACorrugatedSheet) {
 /// Expects one connected part without problems, whose area times thickness is the volume.
 void expect_right(const MidSurface& middle) {
   EXPECT_TRUE(middle.problems.empty());
-  EXPECT_TRUE(middle.warnings.empty());
+  expect_told(middle);
   EXPECT_TRUE(middle.stray_edges.empty());
   EXPECT_EQ(middle.parts, middle.solids);
   EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.01);
@@ -950,11 +950,11 @@ TEST(MidSurface, TellsWhatIsLeftOutOfTheVolume) {
 
 /// A plate counts once with its pocket, but the strips that join its steps count too.
 TEST(MidSurface, TellsTheVolumeOfTheStripsAtSteps) {
-  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(60, 40, 6).Shape();
-  const TopoDS_Shape pocket = BRepPrimAPI_MakeBox(gp_Pnt(10, 10, 3), 40, 20, 3).Shape();
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(180, 120, 6).Shape();
+  const TopoDS_Shape pocket = BRepPrimAPI_MakeBox(gp_Pnt(15, 15, 3), 150, 90, 3).Shape();
   const MidSurface middle = middle_of(BRepAlgoAPI_Cut(plate, pocket).Shape());
   expect_told(middle);
-  const double strips = 2 * (40 + 20) * 1.5 * 3;
+  const double strips = 2 * (150 + 90) * 1.5 * 3;
   EXPECT_NEAR(middle.counted_twice, strips, 1e-3);
   EXPECT_NEAR(middle.shell_volume, middle.volume + strips, 1e-3);
   ASSERT_EQ(middle.warnings.size(), 1U);
@@ -972,12 +972,16 @@ TEST(MidSurface, AddsFlatFilletsToTheThickness) {
     EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 1e-6);
     const double area = leg * leg;  // of both welds
     EXPECT_NEAR(middle.shell_volume / 200, 1200 + 6 * 85 + 2 * area, 1e-3);
-    double added = 0;  // by the strips of the web, and by those of the flange
+    int added = 0;  // strips
     for (const MiddleFace& face : middle.faces) {
       const bool web = std::abs(face.area / 200 - (5 + leg)) < 1e-3;
       const bool flange = std::abs(face.area / 200 - (3 + leg)) < 1e-3;
-      if (web) EXPECT_NEAR((face.thickness - 6) * (5 + leg), area, 1e-6);
-      if (flange) EXPECT_NEAR((face.thickness - 10) * (3 + leg), 0.5 * area, 1e-6);
+      if (web) {
+        EXPECT_NEAR((face.thickness - 6) * (5 + leg), area, 1e-6);
+      }
+      if (flange) {
+        EXPECT_NEAR((face.thickness - 10) * (3 + leg), 0.5 * area, 1e-6);
+      }
       added += web || flange ? 1 : 0;
     }
     EXPECT_EQ(added, 3) << leg;
@@ -1016,7 +1020,7 @@ TEST(MidSurface, AddsFilletsToTheThicknessWhereTheyAre) {
   EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.002);
   double thickest = 0;
   for (const MiddleFace& face : middle.faces) thickest = std::max(thickest, face.thickness);
-  EXPECT_NEAR(thickest, 14.6, 0.5);
+  EXPECT_NEAR(thickest, 15.2, 0.5) << "13.5 at the root, and a fillet of 28 mm2 over 16 mm";
 }
 
 /// The middle of a bend whose radii are equal and no larger than the sheet is thick is nearly a corner.
