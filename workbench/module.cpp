@@ -417,12 +417,12 @@ void bind_midsurface(py::module_& module) {
           "The free edges: (edge number, solid faces that it lies on).")
       .def_readonly("volume", &MidSurface::volume, "Of the solids, in mm^3.")
       .def_readonly("shell_volume", &MidSurface::shell_volume,
-                    "Sum of area times thickness, without steps, in mm^3.")
+                    "Sum of area times thickness over all faces, in mm^3.")
       .def_readonly("parts", &MidSurface::parts, "Connected parts.")
       .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
       .def_readonly("counted_twice", &MidSurface::counted_twice,
-                    "Volume that shell_volume counts twice where walls meet, without fillets there, in mm^3.")
+                    "Volume that shell_volume counts twice where walls meet, in fillets and at steps, in mm^3.")
       .def_readonly("warnings", &MidSurface::warnings, "Inaccuracies that are not errors.")
       .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
       .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),

@@ -336,12 +336,18 @@ double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
 
 }  // namespace
 
-double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                     Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
+CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
+                           const std::vector<JoinedFace>& faces,
+                           Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
+  CountedTwice result;
   TopTools_IndexedMapOfShape edges;
   std::vector<std::vector<EdgeUse>> uses;
-  for (const JoinedFace& face : faces) {
-    if (face.step) continue;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const JoinedFace& face = faces[i];
+    if (face.step) {  // it lies across walls that reach up to it
+      result.steps += result.faces[i] = area_of(face.face) * face.coverage.mean;
+      continue;
+    }
     for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
       if (BRep_Tool::Degenerated(edge)) continue;
@@ -350,23 +356,36 @@ double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std
       uses[index - 1].push_back({&face, edge});
     }
   }
-  std::map<std::set<int>, double> twice;  // by the walls that meet
+  struct Place {
+    double volume = 0;
+    std::set<std::size_t> faces{};
+  };
+  std::map<std::set<int>, Place> places;  // by the walls that meet
   for (const std::vector<EdgeUse>& around : uses) {
     std::set<int> meeting;
     const double section = section_counted_twice(skin, walls, around, meeting);
-    if (section != 0) twice[meeting] += section * length_of(around.front().edge);
+    if (section == 0) continue;
+    Place& place = places[meeting];
+    place.volume += section * length_of(around.front().edge);
+    for (const EdgeUse& use : around) place.faces.insert(static_cast<std::size_t>(use.face - faces.data()));
   }
-  double result = 0;
-  for (auto& [meeting, volume] : twice) {
+  for (auto& [meeting, place] : places) {
     for (auto& [corner, held] : fillets.beside) {
       if (!std::includes(meeting.begin(), meeting.end(), corner.begin(), corner.end())) continue;
-      const double made_up = std::max(0.0, std::min(volume, held));
-      volume -= made_up;
+      const double made_up = std::max(0.0, std::min(place.volume, held));
+      place.volume -= made_up;
       held -= made_up;
     }
-    result += volume;
+    result.junctions += place.volume;
+    for (const std::size_t face : place.faces) result.faces[face] += place.volume;
   }
-  for (const auto& [corner, held] : fillets.beside) result += std::max(0.0, -held);
+  for (const auto& [corner, held] : fillets.beside) {
+    if (held >= 0) continue;
+    result.fillets -= held;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i].coverage.added > 0 && corner.count(faces[i].wall) != 0) result.faces[i] -= held;
+    }
+  }
   return result;
 }
 

@@ -2,6 +2,7 @@
 /// Checks of the middle surface of a solid against the solid. Internal.
 
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <map>
 #include <vector>
 
 #include "geometry/midsurface/joining.hpp"
@@ -21,11 +22,20 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
                 const TopTools_IndexedMapOfShape& edge_numbers, const ExecutionContext& context,
                 MidSurface& result);
 
-/// The volume that area times thickness counts twice where more than two middle surfaces meet. Corners of two
-/// walls count once: what is counted twice on their inside is missing on their outside. It compensates for
-/// fillets between the same walls, as far as no thickness contains these. Linear in the edges.
-double counted_twice(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                     Fillets fillets);
+/// The volume that area times thickness counts twice, and where.
+struct CountedTwice {
+  double junctions = 0;                   ///< where more than two middle surfaces meet
+  double fillets = 0;                     ///< in fillets that are thickness of more than one wall
+  double steps = 0;                       ///< in faces that join the walls of a step
+  std::map<std::size_t, double> faces{};  ///< by index of a face: the volume of all places that it is part of
+  double sum() const { return junctions + fillets + steps; }
+};
+
+/// What area times thickness counts twice. Corners of two walls count once: what is counted twice on their
+/// inside is missing on their outside. What a junction counts twice compensates for fillets between the same
+/// walls, as far as no thickness contains these. Linear in the edges.
+CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
+                           const std::vector<JoinedFace>& faces, Fillets fillets);
 
 /// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
 /// measure on most of the face.

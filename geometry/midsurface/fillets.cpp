@@ -1,17 +1,20 @@
 /// Adds the material of fillets, which lies beside the corners of middle surfaces, to the thickness of strips
-/// along these corners. For the stiffness the amount matters, and hardly its distribution over a strip:
-/// material in a corner keeps both walls from bending and twisting, but as thickness of one wall it has less
-/// effect. So the thinner wall gets more material than there is, up to a bound, which is reported as counted
-/// twice. Closed sections resist twisting by their walls' areas, and get the actual amount.
+/// along these corners. The material in a corner resists the bending and twisting of each of its walls, so
+/// each gets all of it: the strips then resist them as the corner does, but hold its material more than once,
+/// which is reported. Where that would make the section as a whole too stiff, as in the flanges of an I-beam,
+/// each gets less. Closed sections resist by their walls' areas, and get the actual amount.
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <GProp_PrincipalProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <set>
 
@@ -24,11 +27,20 @@ namespace quadrille {
 
 namespace {
 
-/// The volume that a fillet adds to the corner between its walls; 0 if it is none. Its section is taken as an
-/// arc, which is a line if the fillet turns nowhere but at its borders: the triangle between its chord and
-/// the corner, without what lies between chord and arc.
-double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
-                 const std::vector<FilletBorder>& borders) {
+/// A fillet in a corner between walls.
+struct Fillet {
+  std::vector<FilletBorder> borders;
+  double volume = 0;     ///< that it adds to the corner
+  double leg = 0;        ///< the longer one: how far it reaches from the corner
+  double thickness = 0;  ///< of the thickest wall
+  bool closed = false;   ///< in a closed section
+};
+using FilletsByFace = std::map<int, Fillet>;  ///< by index into Skin::faces()
+
+/// Its volume is 0 if it is none. Its section is taken as an arc, which is a line if the fillet turns nowhere
+/// but at its borders: the triangle between its chord and the corner, without what lies between chord and
+/// arc.
+Fillet fillet_of(const SkinFace& face, const std::vector<Wall>& walls, std::vector<FilletBorder> borders) {
   const FilletBorder& first = borders.front();
   const FilletBorder* second = &first;
   double turn = 0, length = 0, thickness = 0;
@@ -39,8 +51,8 @@ double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
     thickness = std::max(thickness, walls[border.wall].thickness);
   }
   constexpr double least_turn = 0.1, most_turn = 3;  // radians; outside of this range it is not a corner
-  if (turn < least_turn || turn > most_turn) return 0;
-  const double width = fillet.area() / length, arc = turn - first.turn - second->turn;
+  if (turn < least_turn || turn > most_turn) return {};
+  const double width = face.area() / length, arc = turn - first.turn - second->turn;
   double chord = width, segment = 0;
   if (std::abs(arc) > 1e-3) {
     const double radius = width / arc;
@@ -48,12 +60,13 @@ double volume_of(const SkinFace& fillet, const std::vector<Wall>& walls,
     segment = 0.5 * radius * radius * (arc - std::sin(arc));
   }
   const double a = std::sin(first.turn + 0.5 * arc), b = std::sin(second->turn + 0.5 * arc);
-  if (a <= 0 || b <= 0) return 0;
+  if (a <= 0 || b <= 0) return {};
   // The end of a gusset is not a fillet, and neither is the inclined side of a block.
   constexpr double longest_leg = 4;  // over the thickness
-  const bool strip = first.turn == 0 ||
-                     (width < length && chord * std::max(a, b) < longest_leg * thickness * std::sin(turn));
-  return strip ? std::max(0.0, 0.5 * chord * chord * a * b / std::sin(turn) - segment) * length : 0;
+  const double leg = chord * std::max(a, b) / std::sin(turn);
+  if (first.turn > 0 && (width >= length || leg >= longest_leg * thickness)) return {};
+  const double volume = std::max(0.0, 0.5 * chord * chord * a * b / std::sin(turn) - segment) * length;
+  return {std::move(borders), volume, leg, thickness};
 }
 
 /// The walls of a fillet's corner.
@@ -65,7 +78,7 @@ std::set<int> walls_of(const std::vector<FilletBorder>& borders) {
 
 double shell_volume(const std::vector<JoinedFace>& faces) {
   double volume = 0;
-  for (const JoinedFace& face : faces) volume += face.step ? 0 : area_of(face.face) * face.coverage.mean;
+  for (const JoinedFace& face : faces) volume += area_of(face.face) * face.coverage.mean;
   return volume;
 }
 
@@ -158,84 +171,198 @@ bool is_closed(const std::set<int>& corner, const std::set<std::pair<int, int>>&
   return false;
 }
 
-/// Where a fillet ends at a wall.
-struct Place {
-  double thickness = 0;             ///< of the wall
-  std::vector<std::size_t> strips;  ///< indices of faces
-};
-
-/// Distributes volumes as additional thickness: `once` over the strips of all places, `again` over those of
-/// the thinnest walls. \return what was added.
-double thicken(const std::vector<Place>& places, double once, double again, int fillet,
-               std::vector<JoinedFace>& faces) {
-  if (places.empty()) return 0;
-  double thinnest = places.front().thickness;
-  for (const Place& place : places) thinnest = std::min(thinnest, place.thickness);
-  const auto thin = [&](const Place& place) { return place.thickness < 1.001 * thinnest; };
-  const auto thin_places = static_cast<double>(std::count_if(places.begin(), places.end(), thin));
-  for (const Place& place : places) {
-    const double volume = once / static_cast<double>(places.size()) + (thin(place) ? again / thin_places : 0);
-    double area = 0;
-    for (const std::size_t i : place.strips) area += area_of(faces[i].face);
-    for (const std::size_t i : place.strips) {
-      Coverage& coverage = faces[i].coverage;
-      for (double* of : {&coverage.mean, &coverage.thinnest, &coverage.thickest, &coverage.added})
-        *of += volume / area;
-      coverage.faces.insert(fillet);
+/// How much stiffer fillets make the walls beside them where these bend or twist, for which the cube of the
+/// thickness counts: what they add as thickness of the strips from their borders to the corner, over what the
+/// walls have as a whole.
+double stiffening(const FilletsByFace& fillets, const std::vector<Wall>& walls,
+                  const std::vector<JoinedFace>& faces) {
+  /// The strips of one wall beside fillets on its first side and on the other one, which may share a strip.
+  struct Strips {
+    gp_Dir outward;
+    std::array<double, 2> areas{};
+    double volume = 0;
+  };
+  std::map<int, Strips> beside;
+  for (const auto& [face, fillet] : fillets) {
+    for (const FilletBorder& border : fillet.borders) {
+      Strips& strips = beside.try_emplace(border.wall, Strips{border.outward}).first->second;
+      const std::size_t side = border.outward.Dot(strips.outward) > 0 ? 0 : 1;
+      strips.areas[side] += border.length * (fillet.leg + 0.5 * fillet.thickness);
+      strips.volume += fillet.volume * border.share;
     }
   }
-  return once + again;
+  const auto cube = [](double x) { return x * x * x; };
+  double added = 0, whole = 0;
+  for (const auto& [wall, strips] : beside) {
+    const double area = std::max(strips.areas[0], strips.areas[1]), thickness = walls[wall].thickness;
+    added += area * (cube(thickness + strips.volume / area) - cube(thickness));
+  }
+  for (const JoinedFace& face : faces) {
+    if (!face.step && beside.count(face.wall) != 0)
+      whole += area_of(face.face) * cube(face.coverage.mean - face.coverage.added);
+  }
+  return whole > 0 ? added / whole : 0;
+}
+
+/// The integrals of the squared distance from the centroid of the solid, along its two principal axes in
+/// which it is slim: a beam's second moments of area times its length. \param of the solid, or a shell.
+std::array<double, 2> second_moments(const GProp_GProps& solid, const GProp_GProps& of) {
+  const GProp_PrincipalProps axes = solid.PrincipalProperties();
+  std::array<std::pair<double, double>, 3> result;  // of the solid and of the other one
+  const std::array<gp_Vec, 3> along{axes.FirstAxisOfInertia(), axes.SecondAxisOfInertia(),
+                                    axes.ThirdAxisOfInertia()};
+  const auto about = [](const GProp_GProps& body, const gp_XYZ& axis, const gp_Pnt& center) {
+    const gp_Mat mat = body.MatrixOfInertia();
+    const double off = (body.CentreOfMass().XYZ() - center.XYZ()).Dot(axis);
+    return 0.5 * (mat(1, 1) + mat(2, 2) + mat(3, 3)) - axis.Dot(axis.Multiplied(mat)) +
+           body.Mass() * off * off;
+  };
+  for (int i = 0; i < 3; ++i) {
+    result[i] = {about(solid, along[i].XYZ(), solid.CentreOfMass()),
+                 about(of, along[i].XYZ(), solid.CentreOfMass())};
+  }
+  std::sort(result.begin(), result.end());
+  return {result[0].second, result[1].second};
+}
+
+/// Area times thickness of all faces, as a body.
+GProp_GProps body_of(const std::vector<JoinedFace>& faces) {
+  GProp_GProps result;
+  for (const JoinedFace& face : faces) {
+    GProp_GProps own;
+    BRepGProp::SurfaceProperties(face.face, own);
+    result.Add(own, face.coverage.mean);
+  }
+  return result;
+}
+
+/// Adds a volume to the thickness of strips.
+void thicken(const std::vector<std::size_t>& strips, double volume, int fillet,
+             std::vector<JoinedFace>& faces) {
+  double area = 0;
+  for (const std::size_t i : strips) area += area_of(faces[i].face);
+  for (const std::size_t i : strips) {
+    Coverage& coverage = faces[i].coverage;
+    for (double* of : {&coverage.mean, &coverage.thinnest, &coverage.thickest, &coverage.added})
+      *of += volume / area;
+    coverage.faces.insert(fillet);
+  }
+}
+
+/// The largest share of its volume, up to 1, that each fillet may add to each of its walls: what is counted
+/// twice by that must not raise the second moments of the solid much. \param thin the shell without fillets.
+/// \param thick with all of them in each wall. \param held volume of the fillets. \param twice what junctions
+/// count twice, which lies where the fillets are.
+double share_for(const TopoDS_Solid& solid, const GProp_GProps& thin, const GProp_GProps& thick, double held,
+                 double twice) {
+  constexpr double most_stiff = 0.025;
+  GProp_GProps body;
+  BRepGProp::VolumeProperties(solid, body);
+  const auto whole = second_moments(body, body), least = second_moments(body, thin),
+             most = second_moments(body, thick);
+  const double added = thick.Mass() - thin.Mass();
+  double result = 1;
+  for (std::size_t i = 0; i < whole.size() && added > 0; ++i) {
+    const double each = (most[i] - least[i]) / added;  // of a unit of volume
+    if (each > 0) result = std::min(result, (most_stiff * whole[i] / each + held - twice) / added);
+  }
+  return std::max(0.0, result);
+}
+
+/// The fillets between walls. \param faces not cut yet.
+FilletsByFace find_fillets(const Skin& skin, const std::vector<Wall>& walls,
+                           const std::vector<JoinedFace>& faces) {
+  FilletsByFace result;
+  const std::set<std::pair<int, int>> neighbors = neighbors_of(faces);
+  for (auto& [face, borders] : find_fillet_borders(skin, walls)) {
+    Fillet fillet = fillet_of(skin.faces()[face], walls, std::move(borders));
+    if (fillet.volume == 0) continue;
+    fillet.closed = is_closed(walls_of(fillet.borders), neighbors);
+    std::map<int, double> lengths;  // by wall
+    for (const FilletBorder& border : fillet.borders) lengths[border.wall] += border.length;
+    for (FilletBorder& border : fillet.borders) border.share = border.length / lengths[border.wall];
+    result.emplace(face, std::move(fillet));
+  }
+  return result;
 }
 
 }  // namespace
 
 Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                     const ExecutionContext& context, std::vector<JoinedFace>& faces) {
-  constexpr double worth_it = 0.01, most_twice = 0.02, most_off = 0.75;
-  std::map<int, std::vector<FilletBorder>> fillets = find_fillet_borders(skin, walls);
+  constexpr double worth_volume = 0.01, worth_stiffness = 0.02;
+  FilletsByFace open = find_fillets(skin, walls, faces), closed;
   Fillets result;
+  if (open.empty()) return result;
   auto& beside = result.beside;
-  double held = 0;
-  for (auto it = fillets.begin(); it != fillets.end();) {
-    const double each = volume_of(skin.faces()[it->first], walls, it->second);
-    if (each > 0) {
-      beside[walls_of(it->second)] += each;
-      held += each;
-    }
-    it = each > 0 ? std::next(it) : fillets.erase(it);
+  double held = 0, held_closed = 0;
+  for (const auto& [face, fillet] : open) held += fillet.volume;
+  // The rounding outside of a bend takes off what the one inside adds.
+  const double there = volume - shell_volume(faces) + counted_twice(skin, walls, faces, {}).sum();
+  const double left_over = std::clamp(there / held, 0.0, 1.0);
+  for (auto& [face, fillet] : open) {
+    beside[walls_of(fillet.borders)] += fillet.volume;
+    held_closed += fillet.closed ? fillet.volume : 0;
+    if (!fillet.closed) fillet.volume *= left_over;
+  }
+  for (auto it = open.begin(); it != open.end();) {
+    const auto fillet = it++;
+    if (fillet->second.closed) closed.insert(open.extract(fillet));
   }
   const auto missing = [&](const std::vector<JoinedFace>& from) {
-    return volume - shell_volume(from) + counted_twice(skin, walls, from, result);
+    return volume - shell_volume(from) + counted_twice(skin, walls, from, result).sum();
   };
-  if (held < 0.5 * worth_it * volume || missing(faces) < worth_it * volume) return result;
+  if (stiffening(open, walls, faces) < worth_stiffness) open.clear();
+  if (held_closed < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
+  if (open.empty() && closed.empty()) return result;
   BOPAlgo_Builder fuse;
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
   for (const JoinedFace& face : faces) fuse.AddArgument(face.face);
-  for (const auto& [fillet, borders] : fillets) {
-    for (const FilletBorder& border : borders) fuse.AddArgument(border.fence);
+  for (const FilletsByFace* fillets : {&open, &closed}) {
+    for (const auto& [face, fillet] : *fillets) {
+      for (const FilletBorder& border : fillet.borders) fuse.AddArgument(border.fence);
+    }
   }
   perform(fuse, context);
-  if (fuse.HasErrors()) return result;  // the faces stay as they are
   std::vector<char> strips;
-  std::vector<JoinedFace> cut = cut_faces(fuse, skin, walls, faces, strips);
-  // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
-  const double share = std::clamp(missing(cut) / held, 0.0, 1.0);
-  const double again = std::min(share, most_twice * volume / held);
-  const std::set<std::pair<int, int>> neighbors = neighbors_of(cut);
-  for (const auto& [fillet, borders] : fillets) {
-    // A border that ends inside a wall cuts nothing off, and has no strips.
-    std::vector<Place> places;
-    for (const FilletBorder& border : borders) {
-      Place place{walls[border.wall].thickness, strips_at(fuse, border, cut, strips)};
-      if (!place.strips.empty()) places.push_back(std::move(place));
+  std::vector<JoinedFace> cut;
+  if (!fuse.HasErrors())
+    cut = cut_faces(fuse, skin, walls, faces, strips);  // else the faces stay as they are
+  /// Adds a share of the volume of each fillet to each of its walls. \return the borders that cut no strip
+  /// off.
+  const auto add = [&](const FilletsByFace& fillets, double share) {
+    FilletsByFace left;
+    for (const auto& [face, fillet] : fillets) {
+      const std::set<int> corner = walls_of(fillet.borders);
+      const double each = fillet.closed ? share / static_cast<double>(corner.size()) : share;
+      for (const FilletBorder& border : fillet.borders) {
+        const std::vector<std::size_t> along = strips_at(fuse, border, cut, strips);
+        if (along.empty()) {
+          const Fillet whole{{}, fillet.volume, fillet.leg, fillet.thickness};
+          left.try_emplace(face, whole).first->second.borders.push_back(border);
+          continue;
+        }
+        thicken(along, each * border.share * fillet.volume, face, cut);
+        beside[corner] -= each * border.share * fillet.volume;
+      }
     }
-    const double whole = volume_of(skin.faces()[fillet], walls, borders);
-    const std::set<int> corner = walls_of(borders);
-    const double more = is_closed(corner, neighbors) ? 0 : again * whole;
-    if (more > 0 && again < most_off * share) result.soft.insert(fillet);
-    beside[corner] -= thicken(places, share * whole, more, fillet, cut);
-  }
+    return left;
+  };
+  const GProp_GProps thin = body_of(cut);
+  FilletsByFace left = add(open, 1);
+  double open_held = 0;
+  for (const auto& [face, fillet] : open) open_held += fillet.volume;
+  const double share =
+      share_for(skin.solid(), thin, body_of(cut), open_held, counted_twice(skin, walls, cut, {}).junctions);
+  if (share < 1) add(open, share - 1);
+  result.softer = stiffening(left, walls, faces) + (1 - share) * stiffening(open, walls, faces);
+  if (result.softer < worth_stiffness) result.softer = 0;
+  if (share < 1) left.insert(open.begin(), open.end());
+  for (const auto& [face, fillet] : left) result.left_out.insert(face);
+  if (cut.empty()) return result;
+  // Of a wall that tapers, the strips alone may hold more or less than they did as parts of it.
+  if (!closed.empty()) add(closed, std::clamp(missing(cut) / held_closed, 0.0, 1.0));
   drop_traces(cut);
   orient_alike(cut);
   faces = std::move(cut);

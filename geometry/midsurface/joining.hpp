@@ -43,15 +43,18 @@ struct Fillets {
   /// Their volume that no thickness contains, by the walls, as indices, of their corners; negative where
   /// thicknesses contain it twice.
   std::map<std::set<int>, double> beside{};
-  std::set<int> soft{};  ///< indices of those that stiffen their walls clearly more than the thickness does
+  std::set<int> left_out{};  ///< indices of those that stiffen their walls more than the thickness does
+  double softer = 0;         ///< by which share of the walls' stiffness; 0 if hardly
 };
 
 /// Adds the material of fillets in corners, as thickness, to the strips of the walls between the fillet and
-/// the corner; in open sections to those of the thinner wall once more, up to 2 % of the volume. The faces
-/// are cut where the fillets begin. Does nothing unless the middle surfaces lack more than a hundredth of the
-/// volume and the fillets hold at least half of that. What is counted twice where walls meet compensates for
-/// the fillets there, and for nothing else. \param volume of the solid. \return the material of fillets that
-/// no thickness contains.
+/// the corner: in open sections all of it to each wall, or as much as makes the second moments of the section
+/// a fortieth too large; in closed ones the actual amount. The faces are cut where the fillets begin. Leaves
+/// the fillets of open sections out if they make the walls less than a fiftieth stiffer where these bend or
+/// twist, and those of closed sections unless the middle surfaces lack more than a hundredth of the volume
+/// and the fillets hold at least half of that. What is counted twice where walls meet compensates for the
+/// fillets there, and for nothing else. \param volume of the solid. \return the material of fillets that no
+/// thickness contains.
 Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                     const ExecutionContext& context, std::vector<JoinedFace>& faces);
 

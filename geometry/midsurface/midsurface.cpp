@@ -57,6 +57,7 @@ struct SolidMiddle {
   std::vector<JoinedFace> faces;
   std::vector<Wall> walls;
   Fillets fillets;
+  CountedTwice twice;
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -376,16 +377,47 @@ std::string volume_sentence(const MidSurface& result, const std::string& name, d
   return sentence;
 }
 
+/// The sentence for what area times thickness counts twice. \param numbers of the faces there.
+std::string twice_sentence(const CountedTwice& twice, double volume, const std::string& name,
+                           const std::vector<int>& numbers) {
+  std::vector<std::string> places;
+  const auto add = [&](double part, std::string_view place) {
+    if (part > 1e-3 * volume) places.push_back(fmt::format("{:.1f} % {}", 100 * part / volume, place));
+  };
+  add(twice.junctions, "where walls meet");
+  add(twice.fillets, "in fillets, each of which stiffens every wall beside it");
+  add(twice.steps, "in the faces that join the walls of a step");
+  return fmt::format(
+      "{}: area times thickness counts {:.1f} % of the volume twice ({}), at the result's {}: the mass of "
+      "the "
+      "shell is too large by that; scale the density there if it matters",
+      name, 100 * twice.sum() / volume, fmt::join(places, ", "), face_names(numbers));
+}
+
 /// Compares area times thickness with the volume: what differs is a problem or a warning. What is counted
-/// twice where walls meet does not compensate for what is missing elsewhere.
-void check_volume(const std::string& name, MidSurface& result, std::vector<std::string>& problems) {
+/// twice does not compensate for what is missing elsewhere. \param numbers of the faces of the result.
+void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& numbers, MidSurface& result,
+                  std::vector<std::string>& problems) {
   constexpr double most_missing = 0.05, most_twice = 0.1, worth_telling = 0.02;
-  const double all = result.shell_volume / result.volume;
-  const double once = all - result.counted_twice / result.volume;
-  if (once < 1 - most_missing || all > 1 + most_twice)
-    problems.push_back(volume_sentence(result, name, all > 1 + most_twice ? all : once));
-  else if (once < 1 - worth_telling || once > 1 + worth_telling)
-    result.warnings.push_back(volume_sentence(result, name, once));
+  const CountedTwice& twice = middle.twice;
+  const double once = (result.shell_volume - twice.sum()) / result.volume;
+  const double overlapping = once + twice.junctions / result.volume;
+  if (once < 1 - most_missing || overlapping > 1 + most_twice) {
+    const double share = overlapping > 1 + most_twice ? overlapping : once;
+    problems.push_back(volume_sentence(result, middle.name, share));
+  } else if (once < 1 - worth_telling || once > 1 + worth_telling) {
+    result.warnings.push_back(volume_sentence(result, middle.name, once));
+  }
+  if (twice.sum() <= worth_telling * result.volume) return;
+  std::vector<std::pair<double, int>> order;
+  for (const auto& [face, volume] : twice.faces) {
+    if (volume > 1e-3 * result.volume)
+      order.emplace_back(-volume, numbers.FindIndex(middle.faces[face].face));
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<int> faces;
+  for (const auto& [volume, number] : order) faces.push_back(number);
+  result.warnings.push_back(twice_sentence(twice, result.volume, middle.name, faces));
 }
 
 /// Where free edges end inside the material, by faces of the solid, and what to do about it.
@@ -432,32 +464,32 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
       middle.name, faces.size(), fmt::join(parts, "; "));
 }
 
-/// The sentence for fillets whose material a shell cannot have where it is.
-std::string soft_fillets_sentence(const SolidMiddle& middle, const Skin& skin) {
+/// The sentence for fillets whose material is in no thickness.
+std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
   std::vector<int> numbers;
-  for (const int fillet : middle.fillets.soft) numbers.push_back(skin.faces()[fillet].number());
+  for (const int fillet : middle.fillets.left_out) numbers.push_back(skin.faces()[fillet].number());
   sort_unique(numbers);
   return fmt::format(
-      "{}: the large fillets or welds at {} stiffen the walls there more than the same material does as "
-      "thickness of the shell: the shell may be too soft, by a tenth or more, where it is twisted or bent "
-      "across them",
-      middle.name, face_names(numbers));
-}
-
-/// One sentence for each check of a solid that failed.
-std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin, MidSurface& checked) {
-  std::vector<std::string> problems;
-  check_volume(middle.name, checked, problems);
-  if (!middle.fillets.soft.empty()) checked.warnings.push_back(soft_fillets_sentence(middle, skin));
-  if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
-  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle.name));
-  return problems;
+      "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: walls "
+      "that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
+      middle.name, face_names(numbers), 100 * middle.fillets.softer);
 }
 
 /// Numbers of the faces and edges of the result.
 struct Numbers {
   TopTools_IndexedMapOfShape faces, edges;
 };
+
+/// One sentence for each check of a solid that failed.
+std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin, const Numbers& numbers,
+                                       MidSurface& checked) {
+  std::vector<std::string> problems;
+  check_volume(middle, numbers.faces, checked, problems);
+  if (middle.fillets.softer > 0) checked.warnings.push_back(left_out_sentence(middle, skin));
+  if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
+  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle.name));
+  return problems;
+}
 
 MiddleFace description_of(const JoinedFace& joined, const Wall& wall, const Skin& skin) {
   MiddleFace face;
@@ -483,13 +515,13 @@ MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin, c
     MiddleFace& face = result.faces.at(numbers.faces.FindIndex(joined.face) - 1);
     face = description_of(joined, middle.walls[joined.wall], skin);
     face.solid = solid;
-    if (!face.step) checked.shell_volume += face.area * face.thickness;
+    checked.shell_volume += face.area * face.thickness;
   }
   const std::vector<int> part = connected_parts(middle.faces);
   checked.parts = 1 + *std::max_element(part.begin(), part.end());
   checked.volume = middle.volume;
   check_rims(skin, middle.walls, middle.faces, numbers.edges, context, checked);
-  checked.counted_twice = counted_twice(skin, middle.walls, middle.faces, middle.fillets);
+  checked.counted_twice = middle.twice.sum();
   for (const std::size_t i : faces_of_wrong_thickness(skin, middle.walls, middle.faces, context))
     checked.uneven.push_back(numbers.faces.FindIndex(middle.faces[i].face));
   sort_unique(checked.unpaired);
@@ -529,9 +561,10 @@ void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& ski
     context.check();
     SolidMiddle& middle = middles[solid];
     const auto check = [&] {
+      middle.twice = counted_twice(skins[solid], middle.walls, middle.faces, middle.fillets);
       MidSurface checked =
           check_solid(middle, static_cast<int>(solid) + 1, skins[solid], numbers, context, result);
-      for (const std::string& problem : find_problems(middle, skins[solid], checked))
+      for (const std::string& problem : find_problems(middle, skins[solid], numbers, checked))
         tell(problem, middle.name, options, middle.problems, "it nevertheless");
       add_checked(checked, result);
     };

@@ -58,8 +58,9 @@ struct MidSurface {
   std::vector<MiddleFace> faces{};  ///< by face number minus 1
   std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
   double volume = 0;                ///< volume of the solids
-  double shell_volume = 0;          ///< sum of area times mean thickness, without steps
-  /// What of shell_volume is counted twice where walls meet, and compensates for no fillet there.
+  double shell_volume = 0;          ///< sum of area times mean thickness over all faces
+  /// What of shell_volume is counted twice: where walls meet, if it compensates for no fillet there; in
+  /// fillets that are thickness of more than one wall; and in the faces that join the walls of a step.
   double counted_twice = 0;
   int solids = 0;                  ///< number of solids that are thin; with options.join, after joining
   int parts = 0;                   ///< number of connected parts of the middle surface

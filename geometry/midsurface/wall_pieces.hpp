@@ -60,6 +60,7 @@ struct FilletBorder {
   gp_Dir outward;     ///< outward normal half way along the border
   double turn = 0;  ///< angle there between the normals of the wall and of the fillet; 0 if they are tangent
   double length = 0;  ///< length of the border
+  double share = 1;   ///< of the length of all borders of the fillet with this wall
 };
 
 /// The borders of each fillet in a corner of two or more walls, by the fillet's index into Skin::faces().
