@@ -1,6 +1,6 @@
 #pragma once
-/// Ends faces where they narrow towards a tip: a fifth fewer quads outside the limits on thirty models, 3 % on
-/// real parts (decision 75). Internal.
+/// Ends faces where they narrow towards a tip: a fifth fewer quads outside the limits on thirty models, 3 %
+/// on real parts (decision 75). Internal.
 
 #include <vector>
 
