@@ -18,11 +18,16 @@
 #include <set>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "mesher/edges/facet_edges.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
 
 namespace {
+
+/// Facets of a curved surface are joined up to this distance from a plane, as a share of the size: as far as
+/// elements of that size lie off a circle of twelve of them.
+constexpr double chord_error = 0.06;
 
 /// A plane face that may be joined with others, or several that are joined.
 struct PlaneFace {
@@ -56,22 +61,29 @@ Vector2 direction(const CadEdge& edge, const Coedge& coedge, bool at_start) {
 class CoplanarFaces {
  public:
   CoplanarFaces(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing,
-                const SizeLimits& limits)
-      : shape_(shape), sizing_(sizing), limits_(limits), planes_(shape.faces.size()) {
+                const SizeLimits& limits, bool joins_facets)
+      : shape_(shape),
+        sizing_(sizing),
+        limits_(limits),
+        facets_off_(joins_facets ? chord_error * limits.largest : 0),
+        planes_(shape.faces.size()) {
     for (const FaceId face : used.ids())
       if (used[face]) planes_[face] = plane_of(face);
   }
 
   /// The faces to be joined with a face, which comes first. \param taken 1 = not again
-  std::vector<FaceId> around(FaceId first, const FaceFlags& taken) const {
-    Group group;
-    group.members = {first};
-    if (!planes_[first]) return group.members;
-    group.inside = {first};
-    group.whole = *planes_[first];
-    do {
-      grow(group, taken);
-    } while (find_touching(group));
+  /// \param bulge how far they lie off one plane
+  std::vector<FaceId> around(FaceId first, const FaceFlags& taken, double& bulge) const {
+    bulge = 0;
+    if (!planes_[first]) return {first};
+    Group group = grown(first, taken, taken.size());
+    if (group.bends) {  // facets: groups of like widths, with none left over
+      const std::size_t left = count_facets(first, taken), size = group.members.size();
+      const std::size_t groups = (left + size - 1) / size;
+      group = grown(first, taken, (left + groups - 1) / groups);
+      bulge = group.bulge;
+      return group.members;
+    }
     // A few faces in a plane are a partition that someone drew; many small ones come from a program.
     constexpr std::size_t least = 6;
     if (group.members.size() < least) group.members = {first};
@@ -83,25 +95,61 @@ class CoplanarFaces {
   struct Group {
     std::vector<FaceId> members;
     std::set<FaceId> inside;      // the same
+    bool bends = false;           // they are facets of a curved surface
+    double bulge = 0;             // how far they lie off the plane
     PlaneFace whole;              // all of them
     std::set<VertexId> touching;  // where the outline touches itself
   };
 
-  void grow(Group& group, const FaceFlags& taken) const {
+  /// \param most number of facets, if the group bends
+  Group grown(FaceId first, const FaceFlags& taken, std::size_t most) const {
+    Group group{{first}, {first}, false, 0, *planes_[first], {}};
+    do {
+      grow(group, taken, most);
+    } while (find_touching(group));
+    return group;
+  }
+
+  void grow(Group& group, const FaceFlags& taken, std::size_t most) const {
     for (std::size_t i = 0; i < group.members.size(); ++i) {
       const FaceId member = group.members[i];
       for_each_edge(member, [&](EdgeId edge) {
         for (const FaceId next : shape_.edges[edge].faces) {
           if (taken[next] || group.inside.contains(next) || !planes_[next] || stays(edge)) continue;
           if (!does_harm(edge, group, *planes_[next])) continue;
-          if (!is_in_plane(group.whole, group.members.front(), next)) continue;
+          const double off = distance_from_plane(group.whole, group.members.front(), next);
+          const bool bends = off > 0 && are_facets(member, next);
+          if (off > (bends ? facets_off_ : 0)) continue;
+          if ((bends || group.bends) && (group.members.size() >= most ||
+                                         group.whole.width() + planes_[next]->width() > limits_.largest))
+            continue;
           if (!lie_beside_each_other(edge, member, next) || has_edge_that_stays(next, group.inside)) continue;
           group.whole.add(*planes_[next], shared_length(next, group.inside));
+          group.bends |= bends;
+          group.bulge = std::max(group.bulge, off);
           group.inside.insert(next);
           group.members.push_back(next);
         }
       });
     }
+  }
+
+  /// The number of facets that are connected to one, with it.
+  std::size_t count_facets(FaceId first, const FaceFlags& taken) const {
+    std::vector<FaceId> found{first};
+    FaceFlags seen = taken;
+    seen[first] = 1;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const FaceId member = found[i];
+      for_each_edge(member, [&](EdgeId edge) {
+        for (const FaceId next : shape_.edges[edge].faces) {
+          if (seen[next] || !planes_[next] || stays(edge) || !are_facets(member, next)) continue;
+          seen[next] = 1;
+          found.push_back(next);
+        }
+      });
+    }
+    return found.size();
   }
 
   /// \return whether there are more such vertices than before
@@ -213,15 +261,25 @@ class CoplanarFaces {
            is_bad(edge.first_vertex) || is_bad(edge.last_vertex);
   }
 
-  /// Whether all edges of a face lie in a plane, within the tolerances of the face and of that of the plane.
-  bool is_in_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
+  /// Whether two faces are facets of a surface that bends little from one to the next, each so narrow that
+  /// several are as wide as an element.
+  bool are_facets(FaceId a, FaceId b) const {
+    static const double least_cosine = std::cos(std::numbers::pi / 12);
+    return std::max(planes_[a]->width(), planes_[b]->width()) < 0.5 * limits_.largest &&
+           planes_[a]->normal.dot(planes_[b]->normal) > least_cosine;
+  }
+
+  /// How far the edges of a face lie off a plane; 0 within the tolerances of the face and of that of the
+  /// plane.
+  double distance_from_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
     constexpr int samples = 4;
     const double tolerance = std::max(shape_.faces[first].tolerance, shape_.faces[face].tolerance);
-    bool result = true;
+    double result = 0;
     for_each_edge(face, [&](EdgeId id) {
-      for (const Vector3& point : points_along(shape_.edges[id], samples))
-        result = result && std::abs((point - plane.origin).dot(plane.normal)) <=
-                               std::max(tolerance, shape_.edges[id].tolerance);
+      for (const Vector3& point : points_along(shape_.edges[id], samples)) {
+        const double off = std::abs((point - plane.origin).dot(plane.normal));
+        if (off > std::max(tolerance, shape_.edges[id].tolerance)) result = std::max(result, off);
+      }
     });
     return result;
   }
@@ -244,6 +302,7 @@ class CoplanarFaces {
   const CadShape& shape_;
   const SizingOptions& sizing_;
   const SizeLimits& limits_;
+  const double facets_off_;                            // how far facets may lie off a plane
   IdVector<FaceId, std::optional<PlaneFace>> planes_;  // of the faces that may be joined
 };
 
@@ -354,22 +413,27 @@ void replace(CadShape& shape, const FaceJoiner& joiner, CadFace face, Simplified
 }  // namespace
 
 void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const SizingOptions& sizing,
-                         const SizeLimits& limits) {
+                         const SizeLimits& limits, bool joins_facets) {
   const CadShape& before = model.model.shape();
-  const CoplanarFaces faces(before, model.left(used), sizing, limits);
+  const CoplanarFaces faces(before, model.left(used), sizing, limits, joins_facets);
   std::shared_ptr<CadShape> after;
-  FaceFlags taken(before.faces.size());
+  FaceFlags taken(before.faces.size()), of_facets(before.faces.size());
   for (const FaceId face : taken.ids()) {
     if (taken[face]) continue;
-    const FaceJoiner joiner(before, faces.around(face, taken));
+    double bulge = 0;
+    const FaceJoiner joiner(before, faces.around(face, taken, bulge));
     if (joiner.members().size() < 2) continue;
     for (const FaceId member : joiner.members()) taken[member] = 1;
     std::optional<CadFace> whole = joiner.face();
     if (!whole) continue;
     if (!after) after = std::make_shared<CadShape>(before);
     replace(*after, joiner, std::move(*whole), model);
+    of_facets[face] = bulge > 0;
+    model.bulge[face] = bulge;
   }
-  if (after) model.model = CadModel(after);
+  if (!after) return;
+  join_edges_of_facets(*after, of_facets, sizing, model);
+  model.model = CadModel(after);
 }
 
 }  // namespace quadrille
