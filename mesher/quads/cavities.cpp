@@ -19,6 +19,8 @@
 namespace quadrille {
 namespace {
 
+using Quad = QuadTopology::Quad;
+
 constexpr int max_quads = 150;   ///< quads in a patch, before and after
 constexpr int max_growths = 8;   ///< how often a patch may grow
 constexpr int max_search = 600;  ///< quads looked at for the nearest irregular node
@@ -34,13 +36,178 @@ constexpr double mendable_filling = 0.2;
 /// patch have been smoothed, those of a filling not yet.
 constexpr double rise_per_cost = 0.3;
 
+/// Quads that are replaced together, and how many of them each node has.
+class GrowingPatch {
+ public:
+  explicit GrowingPatch(const QuadTopology& topology) : topology_(topology) {}
+
+  const std::vector<int>& quads() const { return quads_; }
+  std::size_t size() const { return quads_.size(); }
+  bool contains(int quad) const { return is_in_[quad] != 0; }
+  int uses(int node) const { return uses_[node]; }
+
+  /// Must be called after quads or nodes were added to the mesh.
+  void make_room(int nodes) {
+    is_in_.resize(topology_.size(), 0);
+    uses_.resize(nodes, 0);
+  }
+
+  void clear() {
+    for (const int quad : quads_) {
+      is_in_[quad] = 0;
+      for (const int node : topology_.quad(quad)) uses_[node] = 0;
+    }
+    quads_.clear();
+  }
+
+  /// False if the patch is full.
+  bool add(int quad) {
+    if (contains(quad)) return true;
+    if (quads_.size() == max_quads) return false;
+    is_in_[quad] = 1;
+    for (const int node : topology_.quad(quad)) ++uses_[node];
+    quads_.push_back(quad);
+    return true;
+  }
+
+  void restore(const std::vector<int>& quads) {
+    clear();
+    for (const int quad : quads) add(quad);
+  }
+
+  /// Equal for the same quads in any order, as long as they keep their nodes.
+  std::uint64_t fingerprint() const {
+    std::uint64_t sum = 0;
+    for (const int quad : quads_) {
+      std::uint64_t print = static_cast<std::uint64_t>(quad);
+      for (const int node : topology_.quad(quad))
+        print = (print ^ (print >> 29) ^ static_cast<std::uint64_t>(node)) * 0x9E3779B97F4A7C15u;
+      sum += print ^ (print >> 32);
+    }
+    return sum;
+  }
+
+ private:
+  const QuadTopology& topology_;
+  std::vector<int> quads_;
+  std::vector<char> is_in_;  ///< by quad
+  std::vector<int> uses_;    ///< by node: quads of the patch
+};
+
+/// A patch as a polygon with nodes inside.
+struct Cavity {
+  std::vector<int> ring, inside;  ///< nodes
+  std::vector<int> corners;       ///< indices into the ring
+  int cost = 0;                   ///< valence cost of the patch as it is
+};
+
+/// Replaces patches by the first filling that is not worse.
+class CavityFiller {
+ public:
+  CavityFiller(EditedMesh& mesh, const MeshSurface& surface) : mesh_(mesh), surface_(surface) {}
+
+  /// Replaces a patch by a filling with fewer irregular nodes, if there is one. \return whether it did.
+  bool fill(GrowingPatch& patch, const Cavity& cavity) {
+    if (cavity.cost < 2 || !is_flat(cavity) || !seen_.insert(patch.fingerprint()).second) return false;
+    std::vector<Vector3> outline;
+    for (const int node : cavity.ring) outline.push_back(mesh_.point(node));
+    const auto share = [&](double of) { return round_to_int(of * static_cast<double>(patch.size())); };
+    // Quads gained or lost already may be given back, however many they are.
+    const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
+    const int count = static_cast<int>(patch.size()) - drift_;
+    const FillingLimits limits{.most_irregular = cavity.cost - 1,
+                               .least_quads = std::max(share(least_share), count - drift),
+                               .most_quads = std::min({share(most_share), count + drift, max_quads})};
+    return fill_polygon(outline, cavity.corners, limits,
+                        [&](const PolygonFilling& filling) { return put(filling, patch, cavity); });
+  }
+
+ private:
+  /// Whether the patch is flat enough for places interpolated between its nodes to make sense.
+  bool is_flat(const Cavity& cavity) const {
+    constexpr double least_cosine = 0.7;
+    Vector3 mean = Vector3::Zero();
+    for (const int node : cavity.ring) mean += mesh_.normal(node);
+    mean.normalize();
+    const auto turned = [&](int node) { return !(mesh_.normal(node).dot(mean) > least_cosine); };
+    return std::none_of(cavity.ring.begin(), cavity.ring.end(), turned) &&
+           std::none_of(cavity.inside.begin(), cavity.inside.end(), turned);
+  }
+
+  /// The mean distance of the quads from the industry criteria; no quad counts for more than `max_each`.
+  double mean_objective(const std::vector<Quad>& quads) const {
+    constexpr double max_each = 20;
+    double sum = 0;
+    for (const Quad& q : quads)
+      sum += std::min(max_each, measure_objective(mesh_.point(q[0]), mesh_.point(q[1]), mesh_.point(q[2]),
+                                                  mesh_.point(q[3]))
+                                    .value);
+    return sum / static_cast<double>(quads.size());
+  }
+
+  /// Replaces the patch by a filling unless its quads are worse.
+  bool put(const PolygonFilling& filling, GrowingPatch& patch, const Cavity& cavity) {
+    std::vector<Quad> before;
+    for (const int quad : patch.quads()) before.push_back(mesh_.topology().quad(quad));
+    std::vector<int> nodes = cavity.ring;
+    for (std::size_t i = cavity.ring.size(); i < filling.places.size(); ++i)
+      nodes.push_back(place(filling.places[i], cavity));
+    std::vector<Quad> quads = filling.quads;
+    for (Quad& quad : quads)
+      for (int& node : quad) node = nodes[node];
+    const auto count = static_cast<double>(quads.size());
+    const bool done = !mesh_.too_long(before, quads) &&
+                      mesh_.worst(quads) > std::min(mesh_.worst(before), mendable_filling) &&
+                      mean_objective(quads) <
+                          mean_objective(before) + rise_per_cost * (cavity.cost - filling.irregular) / count;
+    const std::vector<int> old = patch.quads();
+    patch.clear();
+    if (done && mesh_.topology().replace(old, quads)) {
+      spare_.clear();
+      drift_ += static_cast<int>(quads.size()) - static_cast<int>(old.size());
+      return true;
+    }
+    patch.restore(old);
+    // Keep the new nodes for the next filling.
+    spare_.assign(nodes.begin() + static_cast<long>(cavity.ring.size()), nodes.end());
+    return false;
+  }
+
+  /// A free node at the point of the surface nearest to the target.
+  int place(const Vector3& target, const Cavity& cavity) {
+    const auto nearest = [&](const std::vector<int>& nodes, int best) {
+      for (const int node : nodes)
+        if (best < 0 ||
+            (mesh_.point(node) - target).squaredNorm() < (mesh_.point(best) - target).squaredNorm())
+          best = node;
+      return best;
+    };
+    const int donor = nearest(cavity.inside, nearest(cavity.ring, -1));
+    int node = -1;
+    if (spare_.empty()) {
+      node = mesh_.add_node_like(donor);
+    } else {
+      node = spare_.back();
+      spare_.pop_back();
+      mesh_.mesh().parameters[node] = mesh_.mesh().parameters[donor];
+    }
+    mesh_.mesh().put(node, mesh_.mesh().moved(surface_, node, target));
+    return node;
+  }
+
+  EditedMesh& mesh_;
+  const MeshSurface& surface_;
+  const int first_count_ = mesh_.topology().size();
+  int drift_ = 0;                           ///< quads gained since the start
+  std::vector<int> spare_;                  ///< nodes that no quad uses
+  std::unordered_set<std::uint64_t> seen_;  ///< fingerprints of patches tried before
+};
+
+/// Grows patches from irregular nodes until they can be filled.
 class Cavities : private EditedMesh {
  public:
   Cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context)
-      : EditedMesh(mesh, context),
-        surface_(surface),
-        uses_(mesh.mesh.points.size(), 0),
-        met_(mesh.mesh.points.size(), 0) {}
+      : EditedMesh(mesh, context), filler_(*this, surface) {}
 
   int run() {
     const int first_node_count = node_count();
@@ -64,51 +231,23 @@ class Cavities : private EditedMesh {
   int excess(int node) const { return valence(node) - (inner(node) ? 4 : wanted(node)); }
   int cost(int node) const { return excess(node) * excess(node); }
 
-  bool in_patch(int quad) const { return in_patch_[quad] != 0; }
-
-  void clear() {
-    for (const int quad : patch_) {
-      in_patch_[quad] = 0;
-      for (const int node : topology_.quad(quad)) uses_[node] = 0;
-    }
-    patch_.clear();
-  }
-
-  bool add(int quad) {
-    if (in_patch(quad)) return true;
-    if (patch_.size() == max_quads) return false;
-    in_patch_[quad] = 1;
-    for (const int node : topology_.quad(quad)) ++uses_[node];
-    patch_.push_back(quad);
-    return true;
-  }
-
-  bool add_fan(int node) {
-    const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
-    for (int i = 0, side = fan.first; i < fan.quads; ++i, side = topology_.rotate(side))
-      if (!add(side >> 2)) return false;
-    return true;
-  }
-
-  void restore(const std::vector<int>& patch) {
-    clear();
-    for (const int quad : patch) add(quad);
-  }
+  bool add_fan(int node) { return topology_.add_fan(topology_.side_of(node), patch_); }
 
   /// Tries a patch that grows to the nearest irregular nodes. If that fails, tries another one that leaves
   /// out the first of these and grows only to nodes that bring it nearer to four corners.
   bool mend(int node) {
-    in_patch_.resize(topology_.size(), 0);
+    patch_.make_room(node_count());
     reached_.resize(topology_.size(), 0);
+    met_.resize(node_count(), 0);
     tried_.clear();
     chooses_ = false;
     if (add_fan(node) && grow_until_filled()) return true;
-    clear();
+    patch_.clear();
     if (tried_.empty()) return false;
     tried_.erase(tried_.begin() + 1, tried_.end());
     chooses_ = true;
     if (add_fan(node) && grow_until_filled()) return true;
-    clear();
+    patch_.clear();
     return false;
   }
 
@@ -117,14 +256,14 @@ class Cavities : private EditedMesh {
     last_corners_ = 4;
     for (int growth = 0; growth < (chooses_ ? few_growths : max_growths); ++growth) {
       const bool fits = make_convex() && trace();
-      if (fits && fill()) return true;
+      if (fits && filler_.fill(patch_, cavity_)) return true;
       if (fits) {
-        last = patch_;
-        last_corners_ = static_cast<int>(corners_.size());
+        last = patch_.quads();
+        last_corners_ = static_cast<int>(cavity_.corners.size());
       } else if (last.empty())
         return false;
       else
-        restore(last);
+        patch_.restore(last);
       if (!grow() && !widen()) return false;
     }
     return false;
@@ -134,7 +273,7 @@ class Cavities : private EditedMesh {
   bool widen() {
     const std::size_t count = patch_.size();
     for (std::size_t i = 0; i < count; ++i)
-      for (const int node : topology_.quad(patch_[i]))
+      for (const int node : topology_.quad(patch_.quads()[i]))
         if (inner(node) && !add_fan(node)) return false;
     return patch_.size() > count;
   }
@@ -142,8 +281,9 @@ class Cavities : private EditedMesh {
   /// Adds quads until no node of the outline has more than two of them inside.
   bool make_convex() {
     for (std::size_t i = 0; i < patch_.size(); ++i) {
-      for (const int node : topology_.quad(patch_[i])) {
-        if (uses_[node] < 3 || topology_.openings(node) > 1 || uses_[node] == valence(node)) continue;
+      for (const int node : topology_.quad(patch_.quads()[i])) {
+        if (patch_.uses(node) < 3 || topology_.openings(node) > 1 || patch_.uses(node) == valence(node))
+          continue;
         if (!inner(node) || !add_fan(node)) return false;
       }
     }
@@ -158,18 +298,18 @@ class Cavities : private EditedMesh {
   /// Adds the quads of the nearest irregular node that suits and was not tried, and the quads on the way.
   bool grow() {
     ++search_;
-    std::vector<int> queue = patch_, from(patch_.size(), -1);
-    for (const int quad : patch_) reached_[quad] = search_;
+    std::vector<int> queue = patch_.quads(), from(patch_.size(), -1);
+    for (const int quad : patch_.quads()) reached_[quad] = search_;
     const std::size_t most = chooses_ ? near_search : max_search;
     for (std::size_t i = 0; i < queue.size() && queue.size() < most; ++i) {
       for (const int node : topology_.quad(queue[i])) {
-        if (topology_.openings(node) > 1 || cost(node) == 0 || uses_[node] == valence(node)) continue;
+        if (topology_.openings(node) > 1 || cost(node) == 0 || patch_.uses(node) == valence(node)) continue;
         if (!inner(node) && wanted(node) > 2) continue;
         if (!suits(node)) continue;
         if (std::find(tried_.begin(), tried_.end(), node) != tried_.end()) continue;
         tried_.push_back(node);
         for (int at = static_cast<int>(i); at >= 0; at = from[at])
-          if (!add(queue[at])) return false;
+          if (!patch_.add(queue[at])) return false;
         return add_fan(node);
       }
       for (int side = 4 * queue[i]; side < 4 * queue[i] + 4; ++side) {
@@ -185,19 +325,19 @@ class Cavities : private EditedMesh {
 
   bool is_outer(int side) const {
     const int twin = topology_.twin(side);
-    return twin < 0 || !in_patch(twin >> 2);
+    return twin < 0 || !patch_.contains(twin >> 2);
   }
 
   /// Finds the outline, its corners, the nodes inside and the valence cost. False if the patch is not a disc,
   /// has nodes inside that must stay, or would have a reflex corner.
   bool trace() {
-    ring_.clear();
-    corners_.clear();
-    inside_.clear();
-    cost_ = 0;
+    cavity_.ring.clear();
+    cavity_.corners.clear();
+    cavity_.inside.clear();
+    cavity_.cost = 0;
     ++search_;
     int start = -1, outer = 0;
-    for (const int quad : patch_)
+    for (const int quad : patch_.quads())
       for (int side = 4 * quad; side < 4 * quad + 4; ++side)
         if (is_outer(side)) {
           start = side;
@@ -210,141 +350,37 @@ class Cavities : private EditedMesh {
       if (met_[node] == search_) return false;
       met_[node] = search_;
       // The node's quads in the patch lie side by side; otherwise the outline would meet itself here.
-      int quads = uses_[node];
+      int quads = patch_.uses(node);
       if (!inner(node) && !on_triangle_[node] && topology_.openings(node) == 1 && quads == valence(node)) {
-        cost_ += cost(node);
+        cavity_.cost += cost(node);
         quads = wanted(node);
       }
       if (quads > 2) return false;
-      if (quads == 1) corners_.push_back(static_cast<int>(ring_.size()));
-      ring_.push_back(node);
+      if (quads == 1) cavity_.corners.push_back(static_cast<int>(cavity_.ring.size()));
+      cavity_.ring.push_back(node);
       for (side = QuadTopology::next(side); !is_outer(side);) side = QuadTopology::next(topology_.twin(side));
     } while (side != start);
-    if (static_cast<int>(ring_.size()) != outer) return false;
-    for (const int quad : patch_)
+    if (static_cast<int>(cavity_.ring.size()) != outer) return false;
+    for (const int quad : patch_.quads())
       for (const int node : topology_.quad(quad)) {
         if (met_[node] == search_) continue;
         met_[node] = search_;
         if (!inner(node)) return false;
-        inside_.push_back(node);
-        cost_ += cost(node);
+        cavity_.inside.push_back(node);
+        cavity_.cost += cost(node);
       }
-    return static_cast<int>(patch_.size()) == outer / 2 - 1 + static_cast<int>(inside_.size());
+    return static_cast<int>(patch_.size()) == outer / 2 - 1 + static_cast<int>(cavity_.inside.size());
   }
 
-  /// Equal for the same quads in any order, as long as they keep their nodes.
-  std::uint64_t fingerprint() const {
-    std::uint64_t sum = 0;
-    for (const int quad : patch_) {
-      std::uint64_t print = static_cast<std::uint64_t>(quad);
-      for (const int node : topology_.quad(quad))
-        print = (print ^ (print >> 29) ^ static_cast<std::uint64_t>(node)) * 0x9E3779B97F4A7C15u;
-      sum += print ^ (print >> 32);
-    }
-    return sum;
-  }
-
-  /// Whether the patch is flat enough for places interpolated between its nodes to make sense.
-  bool is_flat() const {
-    constexpr double least_cosine = 0.7;
-    Vector3 mean = Vector3::Zero();
-    for (const int node : ring_) mean += normal(node);
-    mean.normalize();
-    const auto turned = [&](int node) { return !(normal(node).dot(mean) > least_cosine); };
-    return std::none_of(ring_.begin(), ring_.end(), turned) &&
-           std::none_of(inside_.begin(), inside_.end(), turned);
-  }
-
-  bool fill() {
-    if (cost_ < 2 || !is_flat() || !seen_.insert(fingerprint()).second) return false;
-    std::vector<Vector3> outline;
-    for (const int node : ring_) outline.push_back(point(node));
-    const auto share = [&](double of) { return round_to_int(of * static_cast<double>(patch_.size())); };
-    // Quads gained or lost already may be given back, however many they are.
-    const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
-    const int count = static_cast<int>(patch_.size()) - drift_;
-    const FillingLimits limits{.most_irregular = cost_ - 1,
-                               .least_quads = std::max(share(least_share), count - drift),
-                               .most_quads = std::min({share(most_share), count + drift, max_quads})};
-    return fill_polygon(outline, corners_, limits,
-                        [&](const PolygonFilling& filling) { return put(filling); });
-  }
-
-  /// The mean distance of the quads from the industry criteria; no quad counts for more than `max_each`.
-  double mean_objective(const std::vector<Quad>& quads) const {
-    constexpr double max_each = 20;
-    double sum = 0;
-    for (const Quad& q : quads)
-      sum += std::min(max_each, measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3])).value);
-    return sum / static_cast<double>(quads.size());
-  }
-
-  /// Replaces the patch by a filling unless its quads are worse.
-  bool put(const PolygonFilling& filling) {
-    std::vector<Quad> before;
-    for (const int quad : patch_) before.push_back(topology_.quad(quad));
-    std::vector<int> nodes = ring_;
-    for (std::size_t i = ring_.size(); i < filling.places.size(); ++i)
-      nodes.push_back(place(filling.places[i]));
-    std::vector<Quad> quads = filling.quads;
-    for (Quad& quad : quads)
-      for (int& node : quad) node = nodes[node];
-    const auto count = static_cast<double>(quads.size());
-    const bool done =
-        !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable_filling) &&
-        mean_objective(quads) < mean_objective(before) + rise_per_cost * (cost_ - filling.irregular) / count;
-    const std::vector<int> old = patch_;
-    clear();
-    if (done && topology_.replace(old, quads)) {
-      spare_.clear();
-      drift_ += static_cast<int>(quads.size()) - static_cast<int>(old.size());
-      return true;
-    }
-    for (const int quad : old) add(quad);
-    // Keep the new nodes for the next filling.
-    spare_.assign(nodes.begin() + static_cast<long>(ring_.size()), nodes.end());
-    return false;
-  }
-
-  /// A free node at the point of the surface nearest to the target.
-  int place(const Vector3& target) {
-    const auto nearest = [&](const std::vector<int>& nodes, int best) {
-      for (const int node : nodes)
-        if (best < 0 || (point(node) - target).squaredNorm() < (point(best) - target).squaredNorm())
-          best = node;
-      return best;
-    };
-    const int donor = nearest(inside_, nearest(ring_, -1));
-    int node = -1;
-    if (spare_.empty()) {
-      node = add_node_like(donor);
-      uses_.push_back(0);
-      met_.push_back(0);
-    } else {
-      node = spare_.back();
-      spare_.pop_back();
-      mesh_.parameters[node] = mesh_.parameters[donor];
-    }
-    mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], target, mesh_.normals[node]);
-    return node;
-  }
-
-  const MeshSurface& surface_;
-  const int first_count_ = topology_.size();
-  int drift_ = 0;  ///< quads gained since the start
-  std::vector<int> patch_;
-  std::vector<char> in_patch_;  ///< by quad
-  std::vector<int> uses_;       ///< by node: quads of the patch
-  std::vector<int> ring_, corners_, inside_;
-  int cost_ = 0;              ///< valence cost of the patch as it is
+  GrowingPatch patch_{topology_};
+  Cavity cavity_;  ///< of the patch, once traced
+  CavityFiller filler_;
   bool chooses_ = false;      ///< whether patches grow only to nodes that suit their corners
   int last_corners_ = 4;      ///< corners of the patch when it was last a polygon
   std::vector<int> tried_;    ///< irregular nodes to which the patch has grown
   std::vector<int> met_;      ///< by node: number of the trace that met it last
   std::vector<int> reached_;  ///< by quad: number of the search that met it last
   int search_ = 0;
-  std::vector<int> spare_;                  ///< nodes that no quad uses
-  std::unordered_set<std::uint64_t> seen_;  ///< fingerprints of patches tried before
 };
 
 }  // namespace

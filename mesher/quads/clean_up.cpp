@@ -39,7 +39,7 @@ struct Change {
   int count = 0;
   int moved = -1;  ///< node to move to the mean of its neighbors; -1 = none
 
-  bool add_old(int quad) {
+  bool add(int quad) {
     if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
       return true;
     if (old_count == max_patch) return false;
@@ -169,12 +169,9 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
   const std::span<const Quad> before(old.data(), change.old_count);
   const double worst_before = worst(before);
   const int node = change.moved;
-  Vector3 place = Vector3::Zero(), normal = Vector3::Zero();
-  Vector2 uv = Vector2::Zero();
+  SurfacePlace place;
   if (node >= 0) {
-    place = mesh_.mesh.points[node];
-    normal = mesh_.normals[node];
-    uv = mesh_.parameters[node];
+    place = mesh_.place_of(node);
     Vector3 sum = Vector3::Zero();
     int neighbors = 0;
     for (const Quad& quad : change.new_span())
@@ -183,17 +180,12 @@ bool CleanUp::apply(Change& change, double allowed_cost) {
           sum += point(quad[(k + 1) & 3]);
           ++neighbors;
         }
-    mesh_.mesh.points[node] =
-        surface_.move(mesh_.parameters[node], sum / std::max(neighbors, 1), mesh_.normals[node]);
+    mesh_.put(node, mesh_.moved(surface_, node, sum / std::max(neighbors, 1)));
   }
   const bool done = worst(change.new_span()) > std::min(worst_before, mendable_patch) &&
                     !too_long(before, change.new_span()) &&
                     topology_.replace(change.old_span(), change.new_span());
-  if (!done && node >= 0) {
-    mesh_.mesh.points[node] = place;
-    mesh_.normals[node] = normal;
-    mesh_.parameters[node] = uv;
-  }
+  if (!done && node >= 0) mesh_.put(node, place);
   return done;
 }
 
@@ -205,8 +197,8 @@ bool CleanUp::collapse_doublet(int node) {
   const Quad& two = topology_.quad(other >> 2);
   const int k = side & 3, j = other & 3;
   Change change;
-  change.add_old(side >> 2);
-  change.add_old(other >> 2);
+  change.add(side >> 2);
+  change.add(other >> 2);
   change.quads[change.count++] = {one[(k + 1) & 3], one[(k + 2) & 3], one[(k + 3) & 3], two[(j + 2) & 3]};
   if (!apply(change, 1e9)) return false;
   for (const int corner : change.quads[0]) doubtful_[corner] = 1;
@@ -232,12 +224,8 @@ bool CleanUp::merge_corners(int quad, int corner) {
   const int gone = q[corner], kept = q[(corner + 2) & 3];
   if (!removable(gone)) return false;
   Change change;
-  for (const int node : {gone, kept}) {
-    const QuadTopology::Fan fan = topology_.fan(topology_.side_at(quad, node));
-    int side = fan.first;
-    for (int i = 0; i < fan.quads; ++i, side = topology_.rotate(side))
-      if (!change.add_old(side >> 2)) return false;
-  }
+  for (const int node : {gone, kept})
+    if (!topology_.add_fan(topology_.side_at(quad, node), change)) return false;
   for (const int old : change.old_span()) {
     if (old == quad) continue;
     Quad changed = topology_.quad(old);
@@ -332,12 +320,8 @@ bool CleanUp::improve_round(int node) {
       const Quad& q = topology_.quad(sides[i] >> 2);
       const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
       if (!topology_.closed(topology_.origin(other_side))) continue;
-      const QuadTopology::Fan other = topology_.fan(other_side);
       SmallPatch both = ring;
-      bool fits = true;
-      for (int j = 0, at = other.first; j < other.quads && fits; ++j, at = topology_.rotate(at))
-        fits = both.add(at >> 2);
-      if (fits && try_patch(both)) return true;
+      if (topology_.add_fan(other_side, both) && try_patch(both)) return true;
     }
   return false;
 }
@@ -408,7 +392,7 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   Change change;
   std::array<Quad, SmallPatch::max_quads> old;
   for (int i = 0; i < patch.count; ++i) {
-    change.add_old(patch.quads[i]);
+    change.add(patch.quads[i]);
     old[i] = topology_.quad(patch.quads[i]);
   }
   const std::span<const Quad> before(old.data(), patch.count);
@@ -417,21 +401,17 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   if (!(filled.worst() > floor)) return false;
 
   // Move the nodes to the surface only now.
-  struct Saved {
-    Vector3 point, normal;
-    Vector2 uv;
-  };
-  std::array<Saved, PatchTemplate::max_interior> saved;
+  std::array<SurfacePlace, PatchTemplate::max_interior> saved;
   const int n = outline.length;
   int donor = filled.nodes[0];
   for (int i = 0; i < n; ++i)
     if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
   for (int i = 0; i < filling.interior; ++i) {
     const int node = i < outline.inside_count ? outline.inside[i] : add_node(donor);
-    saved[i] = {point(node), mesh_.normals[node], mesh_.parameters[node]};
-    Vector3& x = filled.x[n + i];
+    saved[i] = mesh_.place_of(node);
     filled.nodes[n + i] = node;
-    x = mesh_.mesh.points[node] = surface_.move(mesh_.parameters[node], x, mesh_.normals[node]);
+    mesh_.put(node, mesh_.moved(surface_, node, filled.x[n + i]));
+    filled.x[n + i] = point(node);
   }
   for (int k = 0; k < filling.quads; ++k) {
     const auto& c = filling.corners[k];
@@ -445,12 +425,7 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
     for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
     return true;
   }
-  for (int i = 0; i < filling.interior; ++i) {
-    const int node = filled.nodes[n + i];
-    mesh_.mesh.points[node] = saved[i].point;
-    mesh_.normals[node] = saved[i].normal;
-    mesh_.parameters[node] = saved[i].uv;
-  }
+  for (int i = 0; i < filling.interior; ++i) mesh_.put(filled.nodes[n + i], saved[i]);
   return false;
 }
 

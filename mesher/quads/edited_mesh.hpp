@@ -61,6 +61,9 @@ class EditedMesh {
 
   EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context);
 
+  SurfaceMesh& mesh() { return mesh_; }
+  QuadTopology& topology() { return topology_; }
+  const QuadTopology& topology() const { return topology_; }
   int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
   const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
   const Vector3& normal(int node) const { return mesh_.normals[node]; }
@@ -71,7 +74,6 @@ class EditedMesh {
   /// Whether a new side is longer than every side before, and far longer than their mean.
   bool too_long(std::span<const Quad> before, std::span<const Quad> quads) const;
 
- protected:
   bool removable(int node) const {
     const int side = topology_.side_of(node);
     return side >= 0 && inner(node);
@@ -104,6 +106,7 @@ class EditedMesh {
   /// order. \return the old number of each point that is left.
   std::vector<int> write_back();
 
+ protected:
   SurfaceMesh& mesh_;
   const ExecutionContext& context_;
   QuadTopology topology_;

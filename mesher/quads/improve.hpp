@@ -21,6 +21,12 @@ class PlanarSurface : public MeshSurface {
   }
 };
 
+/// Where a node is on its surface.
+struct SurfacePlace {
+  Vector3 point, normal;
+  Vector2 uv;
+};
+
 /// A quad mesh of one face while it is improved.
 struct SurfaceMesh {
   QuadMesh mesh;
@@ -31,6 +37,19 @@ struct SurfaceMesh {
   /// curves; 0 = measure it between the sides. On a coarse mesh that will be split, curves turn between the
   /// nodes: on a circle of 6 sides, a corner that looks like 120 degrees turns out straight. For clean_up().
   std::vector<double> boundary_angles;
+
+  SurfacePlace place_of(int node) const { return {mesh.points[node], normals[node], parameters[node]}; }
+  void put(int node, const SurfacePlace& place) {
+    mesh.points[node] = place.point;
+    normals[node] = place.normal;
+    parameters[node] = place.uv;
+  }
+  /// The place nearest to a target, searched from a node's place.
+  SurfacePlace moved(const MeshSurface& surface, int node, const Vector3& target) const {
+    SurfacePlace place = place_of(node);
+    place.point = surface.move(place.uv, target, place.normal);
+    return place;
+  }
 };
 
 struct ImproveReport {

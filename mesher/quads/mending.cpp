@@ -153,140 +153,118 @@ class Trial {
   List<Value, max_quads> values_;
 };
 
-class Mending : private EditedMesh {
- public:
-  Mending(SurfaceMesh& mesh, const MeshSurface& surface, double poor, double least_turn_cosine,
-          const ExecutionContext& context)
-      : EditedMesh(mesh, context),
-        surface_(surface),
-        poor_(poor),
-        least_turn_cosine_(least_turn_cosine),
-        changed_(mesh.mesh.points.size(), 0) {}
+// ---- patches that hold a quad ----
 
-  int run() {
-    int count = 0;
-    for (int pass = 0; pass < passes; ++pass) {
-      int done = 0;
-      for (const auto& [value, quad] : worst_first(pass > 0)) {
-        context_.check();
-        if (topology_.alive(quad) && measure(quad).value > poor_) done += mend(quad);
-      }
-      count += done;
-      if (done == 0) break;
+/// Patches, each of them once.
+struct Patches {
+  std::vector<SmallPatch> list;
+  std::set<std::vector<int>> met;
+
+  bool add(const SmallPatch& patch) {
+    std::vector<int> key(patch.quads.begin(), patch.quads.begin() + patch.count);
+    std::sort(key.begin(), key.end());
+    if (!met.insert(key).second) return false;
+    list.push_back(patch);
+    return true;
+  }
+};
+
+/// Adds the patch, and all patches up to a size that grow from it by one neighbor after the other.
+void grow(const QuadTopology& topology, const SmallPatch& patch, int size, Patches& patches) {
+  if (!patches.add(patch) || patch.count == size) return;
+  for (int i = 0; i < patch.count; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int twin = topology.twin(4 * patch.quads[i] + k);
+      SmallPatch more = patch;
+      if (twin >= 0 && !patch.contains(twin >> 2) && more.add(twin >> 2)) grow(topology, more, size, patches);
     }
-    return count;
+}
+
+/// Patches that hold the quad: up to three quads, the quads around one of its corners, or around two.
+std::vector<SmallPatch> patches_of(const QuadTopology& topology, int quad) {
+  Patches patches;
+  SmallPatch one;
+  one.add(quad);
+  grow(topology, one, 3, patches);
+  const Quad& q = topology.quad(quad);
+  for (int k = 0; k < 4; ++k) {
+    SmallPatch ring = one;
+    if (!topology.add_fan(topology.side_at(quad, q[k]), ring)) continue;
+    patches.add(ring);
+    for (const int other : {q[(k + 1) & 3], q[(k + 2) & 3]}) {
+      SmallPatch both = ring;
+      if (topology.add_fan(topology.side_at(quad, other), both)) patches.add(both);
+    }
   }
+  return std::move(patches.list);
+}
 
-  void write_back(std::vector<char>& changed) {
-    changed.clear();
-    for (const int node : EditedMesh::write_back()) changed.push_back(changed_[node]);
-  }
+// ---- their fillings ----
 
- private:
-  /// One way to fill one patch.
-  struct Candidate {
-    SmallPatch patch;
-    Outline outline;
-    const PatchTemplate* filling;
-    double cost;    ///< increase of the valence cost
-    double before;  ///< the objective of the patch as it is
-    double quick;   ///< objective of the filling before its nodes move, minus `before`
-  };
+/// The objectives of the quads of a mesh, measured on demand.
+class Objectives {
+ public:
+  explicit Objectives(const EditedMesh& mesh) : mesh_(mesh) {}
 
-  struct Attempt {
-    const Candidate* candidate;
-    Trial trial;
-    double before = 0, gain = 0;
-
-    void weigh() { gain = before - trial.sum() - per_cost * std::max(0.0, candidate->cost); }
-  };
-
-  const QuadObjective& measure(int quad) const {
-    if (measured_.size() < static_cast<std::size_t>(topology_.size())) measured_.resize(topology_.size());
-    std::optional<QuadObjective>& known = measured_[quad];
+  const QuadObjective& operator()(int quad) {
+    const QuadTopology& topology = mesh_.topology();
+    if (known_.size() < static_cast<std::size_t>(topology.size())) known_.resize(topology.size());
+    std::optional<QuadObjective>& known = known_[quad];
     if (!known) {
-      const Quad& q = topology_.quad(quad);
-      known = measure_objective(point(q[0]), point(q[1]), point(q[2]), point(q[3]));
+      const Quad& q = topology.quad(quad);
+      known = measure_objective(mesh_.point(q[0]), mesh_.point(q[1]), mesh_.point(q[2]), mesh_.point(q[3]));
     }
     return *known;
   }
 
-  /// \param again only the quads with a node marked in changed_
-  std::vector<std::pair<double, int>> worst_first(bool again) const {
-    std::vector<std::pair<double, int>> bad;
-    for (int quad = 0; quad < topology_.size(); ++quad) {
-      if (!topology_.alive(quad)) continue;
-      const Quad& q = topology_.quad(quad);
-      if (again && std::none_of(q.begin(), q.end(), [this](int node) { return changed_[node]; })) continue;
-      const double value = measure(quad).value;
-      if (value > poor_) bad.emplace_back(-value, quad);
-    }
-    std::sort(bad.begin(), bad.end());
-    return bad;
+  /// To be called when a quad or a node of it has changed.
+  void forget(int quad) {
+    if (quad < static_cast<int>(known_.size())) known_[quad].reset();
   }
 
-  // ---- patches that hold a quad ----
+ private:
+  const EditedMesh& mesh_;
+  std::vector<std::optional<QuadObjective>> known_;
+};
 
-  struct Patches {
-    std::vector<SmallPatch> list;
-    std::set<std::vector<int>> met;
+/// One way to fill one patch.
+struct Candidate {
+  SmallPatch patch;
+  Outline outline;
+  const PatchTemplate* filling;
+  double cost;    ///< increase of the valence cost
+  double before;  ///< the objective of the patch as it is
+  double quick;   ///< objective of the filling before its nodes move, minus `before`
+};
 
-    bool add(const SmallPatch& patch) {
-      std::vector<int> key(patch.quads.begin(), patch.quads.begin() + patch.count);
-      std::sort(key.begin(), key.end());
-      if (!met.insert(key).second) return false;
-      list.push_back(patch);
-      return true;
-    }
-  };
+struct Attempt {
+  const Candidate* candidate;
+  Trial trial;
+  double before = 0, gain = 0;
 
-  /// Adds the patch, and all patches up to a size that grow from it by one neighbor after the other.
-  void grow(const SmallPatch& patch, int size, Patches& patches) const {
-    if (!patches.add(patch) || patch.count == size) return;
-    for (int i = 0; i < patch.count; ++i)
-      for (int k = 0; k < 4; ++k) {
-        const int twin = topology_.twin(4 * patch.quads[i] + k);
-        SmallPatch more = patch;
-        if (twin >= 0 && !patch.contains(twin >> 2) && more.add(twin >> 2)) grow(more, size, patches);
-      }
-  }
+  void weigh() { gain = before - trial.sum() - per_cost * std::max(0.0, candidate->cost); }
+};
 
-  bool add_ring(SmallPatch& patch, int quad, int node) const {
-    const QuadTopology::Fan fan = topology_.fan(topology_.side_at(quad, node));
-    for (int i = 0, side = fan.first; i < fan.quads; ++i, side = topology_.rotate(side))
-      if (!patch.add(side >> 2)) return false;
-    return true;
-  }
+/// Whether a filling has the same uses, and as many nodes inside, as the patch has already.
+bool is_there(const Outline& outline, const PatchTemplate& filling) {
+  return filling.interior == outline.inside_count &&
+         std::equal(outline.uses.begin(), outline.uses.begin() + outline.length, filling.uses.begin());
+}
 
-  /// Patches that hold the quad: up to three quads, the quads around one of its corners, or around two.
-  std::vector<SmallPatch> patches_of(int quad) const {
-    Patches patches;
-    SmallPatch one;
-    one.add(quad);
-    grow(one, 3, patches);
-    const Quad& q = topology_.quad(quad);
-    for (int k = 0; k < 4; ++k) {
-      SmallPatch ring = one;
-      if (!add_ring(ring, quad, q[k])) continue;
-      patches.add(ring);
-      for (const int other : {q[(k + 1) & 3], q[(k + 2) & 3]}) {
-        SmallPatch both = ring;
-        if (add_ring(both, quad, other)) patches.add(both);
-      }
-    }
-    return std::move(patches.list);
-  }
+/// Finds fillings of patches and tries them apart from the mesh.
+class PatchFillings {
+ public:
+  PatchFillings(const EditedMesh& mesh, Objectives& objectives) : mesh_(mesh), objectives_(objectives) {}
 
-  // ---- their fillings ----
-
-  void find_fillings(const SmallPatch& patch, std::vector<Candidate>& candidates) const {
+  /// Adds the fillings of a patch that are worth an attempt.
+  void find(const SmallPatch& patch, std::vector<Candidate>& candidates) const {
     Candidate candidate{patch, {}, nullptr, 0, 0, 0};
     Outline& outline = candidate.outline;
-    if (!trace(patch, outline)) return;
+    if (!mesh_.trace(patch, outline)) return;
     FillingCosts costs;
-    const double cost = find_costs(outline, costs);
+    const double cost = mesh_.find_costs(outline, costs);
     for (int i = 0; i < patch.count; ++i)
-      candidate.before += std::min(largest_objective, measure(patch.quads[i]).value);
+      candidate.before += std::min(largest_objective, objectives_(patch.quads[i]).value);
     costs.resize.fill(0);
     costs.drift.fill(0);
     costs.limit = cost + slack;
@@ -304,83 +282,13 @@ class Mending : private EditedMesh {
     }
   }
 
-  /// Whether a filling has the same uses, and as many nodes inside, as the patch has already.
-  static bool is_there(const Outline& outline, const PatchTemplate& filling) {
-    return filling.interior == outline.inside_count &&
-           std::equal(outline.uses.begin(), outline.uses.begin() + outline.length, filling.uses.begin());
-  }
-
-  /// Puts the filling into a trial, with its inner nodes at the mean of their neighbors.
-  void lay(const Candidate& candidate, Trial& trial) const {
-    const Outline& outline = candidate.outline;
-    const Filling filled = laid(outline, *candidate.filling);
-    trial.set_up(filled.normal);
-    for (int i = 0; i < outline.length; ++i)
-      trial.add_point(outline.ring[i], filled.x[i], inner(outline.ring[i]));
-    for (int i = 0; i < filled.filling.interior; ++i)
-      trial.add_point(i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
-    for (int k = 0; k < filled.filling.quads; ++k) {
-      const auto& c = filled.filling.corners[k];
-      trial.quads.push_back({c[0], c[1], c[2], c[3]});
-    }
-    trial.measure();
-  }
-
-  /// Adds the quads next to the patch; false if there are too many.
-  bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) const {
-    boost::container::static_vector<int, Trial::max_quads> met;
-    for (int i = 0; i < outline.length; ++i) {
-      const QuadTopology::Fan fan = topology_.fan(topology_.side_of(outline.ring[i]));
-      for (int k = 0, side = fan.first; k < fan.quads; ++k, side = topology_.rotate(side)) {
-        const int quad = side >> 2;
-        if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) continue;
-        if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points)
-          return false;
-        met.push_back(quad);
-        Quad local;
-        for (int j = 0; j < 4; ++j) {
-          const int node = topology_.quad(quad)[j];
-          const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
-          local[j] = static_cast<int>(at - trial.nodes.begin());
-          if (at == trial.nodes.end()) trial.add_point(node, point(node), false);
-        }
-        trial.add_old(local, measure(quad));
-      }
-    }
-    return true;
-  }
-
-  // ---- the best of them ----
-
-  bool mend(int quad) {
-    std::vector<Candidate> candidates;
-    for (const SmallPatch& patch : patches_of(quad)) find_fillings(patch, candidates);
-    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return a.quick + per_cost * a.cost < b.quick + per_cost * b.cost;
-    });
-    if (candidates.size() > max_attempts)
-      candidates.erase(candidates.begin() + max_attempts, candidates.end());
-    std::vector<Attempt> attempts;
-    double best = least_gain;
-    for (const Candidate& candidate : candidates) {
-      Attempt now{&candidate, {}};
-      if (!attempt(now, best)) continue;
-      best = now.gain;
-      attempts.push_back(std::move(now));
-    }
-    // The last attempt is the best.
-    for (auto now = attempts.rbegin(); now != attempts.rend(); ++now)
-      if (put(*now)) return true;
-    return false;
-  }
-
   /// Moves the nodes of a filling. \return whether it gains more than the best one so far.
   bool attempt(Attempt& now, double best) const {
     const Candidate& candidate = *now.candidate;
     Trial& trial = now.trial;
     lay(candidate, trial);
     for (int i = 0; i < candidate.patch.count; ++i)
-      trial.floor = std::min(trial.floor, measure(candidate.patch.quads[i]).least_sine);
+      trial.floor = std::min(trial.floor, objectives_(candidate.patch.quads[i]).least_sine);
     now.before = candidate.before - trial.sum();
     if (!surround(candidate.patch, candidate.outline, trial)) return false;
     now.before += trial.sum();
@@ -395,6 +303,117 @@ class Mending : private EditedMesh {
     return now.gain > best && trial.sound();
   }
 
+ private:
+  /// Puts the filling into a trial, with its inner nodes at the mean of their neighbors.
+  void lay(const Candidate& candidate, Trial& trial) const {
+    const Outline& outline = candidate.outline;
+    const Filling filled = mesh_.laid(outline, *candidate.filling);
+    trial.set_up(filled.normal);
+    for (int i = 0; i < outline.length; ++i)
+      trial.add_point(outline.ring[i], filled.x[i], mesh_.inner(outline.ring[i]));
+    for (int i = 0; i < filled.filling.interior; ++i)
+      trial.add_point(i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
+    for (int k = 0; k < filled.filling.quads; ++k) {
+      const auto& c = filled.filling.corners[k];
+      trial.quads.push_back({c[0], c[1], c[2], c[3]});
+    }
+    trial.measure();
+  }
+
+  /// Adds the quads next to the patch; false if there are too many.
+  bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) const {
+    boost::container::static_vector<int, Trial::max_quads> met;
+    const auto add = [&](int quad) {
+      if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) return true;
+      if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points) return false;
+      met.push_back(quad);
+      Quad local;
+      for (int j = 0; j < 4; ++j) {
+        const int node = mesh_.topology().quad(quad)[j];
+        const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
+        local[j] = static_cast<int>(at - trial.nodes.begin());
+        if (at == trial.nodes.end()) trial.add_point(node, mesh_.point(node), false);
+      }
+      trial.add_old(local, objectives_(quad));
+      return true;
+    };
+    return std::all_of(outline.ring.begin(), outline.ring.begin() + outline.length, [&](int node) {
+      return mesh_.topology().all_around(mesh_.topology().side_of(node), add);
+    });
+  }
+
+  const EditedMesh& mesh_;
+  Objectives& objectives_;
+};
+
+// ---- the best of them ----
+
+class Mending : private EditedMesh {
+ public:
+  Mending(SurfaceMesh& mesh, const MeshSurface& surface, double poor, double least_turn_cosine,
+          const ExecutionContext& context)
+      : EditedMesh(mesh, context),
+        surface_(surface),
+        poor_(poor),
+        least_turn_cosine_(least_turn_cosine),
+        changed_(mesh.mesh.points.size(), 0) {}
+
+  int run() {
+    int count = 0;
+    for (int pass = 0; pass < passes; ++pass) {
+      int done = 0;
+      for (const auto& [value, quad] : worst_first(pass > 0)) {
+        context_.check();
+        if (topology_.alive(quad) && objectives_(quad).value > poor_) done += mend(quad);
+      }
+      count += done;
+      if (done == 0) break;
+    }
+    return count;
+  }
+
+  void write_back(std::vector<char>& changed) {
+    changed.clear();
+    for (const int node : EditedMesh::write_back()) changed.push_back(changed_[node]);
+  }
+
+ private:
+  /// \param again only the quads with a node marked in changed_
+  std::vector<std::pair<double, int>> worst_first(bool again) {
+    std::vector<std::pair<double, int>> bad;
+    for (int quad = 0; quad < topology_.size(); ++quad) {
+      if (!topology_.alive(quad)) continue;
+      const Quad& q = topology_.quad(quad);
+      if (again && std::none_of(q.begin(), q.end(), [this](int node) { return changed_[node]; })) continue;
+      const double value = objectives_(quad).value;
+      if (value > poor_) bad.emplace_back(-value, quad);
+    }
+    std::sort(bad.begin(), bad.end());
+    return bad;
+  }
+
+  bool mend(int quad) {
+    std::vector<Candidate> candidates;
+    for (const SmallPatch& patch : patches_of(topology_, quad)) fillings_.find(patch, candidates);
+    std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.quick + per_cost * a.cost < b.quick + per_cost * b.cost;
+    });
+    if (candidates.size() > max_attempts)
+      candidates.erase(candidates.begin() + max_attempts, candidates.end());
+    std::vector<Attempt> attempts;
+    double best = least_gain;
+    for (const Candidate& candidate : candidates) {
+      Attempt now{&candidate, {}};
+      if (!fillings_.attempt(now, best)) continue;
+      best = now.gain;
+      attempts.push_back(std::move(now));
+    }
+    // The last attempt is the best.
+    for (auto now = attempts.rbegin(); now != attempts.rend(); ++now)
+      if (put(*now)) return true;
+    return false;
+  }
+
   /// Carries out an attempt with its nodes on the surface, unless it loses its gain there.
   bool put(Attempt& now) {
     const Candidate& candidate = *now.candidate;
@@ -402,32 +421,40 @@ class Mending : private EditedMesh {
     int donor = trial.nodes[0];
     for (int i = 0; i < candidate.outline.length; ++i)
       if (inner(trial.nodes[i])) donor = trial.nodes[i];
-    std::vector<Vector2> uv(trial.nodes.size());
-    std::vector<Vector3> normals(trial.nodes.size());
+    std::vector<SurfacePlace> places;  // (points)
     for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
-      if (!trial.movable[i]) continue;
       const int from = trial.nodes[i] < 0 ? donor : trial.nodes[i];
-      uv[i] = mesh_.parameters[from];
-      normals[i] = normal(from);
-      trial.points[i] = surface_.move(uv[i], trial.points[i], normals[i]);
+      places.push_back(trial.movable[i] ? mesh_.moved(surface_, from, trial.points[i])
+                                        : mesh_.place_of(from));
+      if (trial.movable[i]) trial.points[i] = places.back().point;
     }
     trial.measure();
     now.weigh();
     if (!(now.gain > least_gain) || !trial.sound()) return false;
-    if (least_turn_cosine_ > -1 && turns_too_much(candidate, trial, normals)) return false;
+    if (least_turn_cosine_ > -1 && turns_too_much(candidate, trial, places)) return false;
     if (!replace(candidate, trial, donor)) return false;
-    settle(trial, uv, normals);
-    for (int i = 0; i < candidate.patch.count; ++i) measured_[candidate.patch.quads[i]].reset();
+    for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
+      const int node = trial.nodes[i];
+      changed_[node] = 1;
+      if (!trial.movable[i]) continue;
+      mesh_.put(node, places[i]);
+      topology_.all_around(topology_.side_of(node), [&](int quad) {
+        objectives_.forget(quad);
+        return true;
+      });
+    }
+    for (int i = 0; i < candidate.patch.count; ++i) objectives_.forget(candidate.patch.quads[i]);
     return true;
   }
 
-  /// Whether a quad turns by more than allowed. \param normals (points) of those that move
-  bool turns_too_much(const Candidate& candidate, const Trial& trial, std::vector<Vector3> normals) const {
+  /// Whether a quad turns by more than allowed. \param places (points)
+  bool turns_too_much(const Candidate& candidate, const Trial& trial,
+                      const std::vector<SurfacePlace>& places) const {
     double least = least_turn_cosine_;
     for (int i = 0; i < candidate.patch.count; ++i)
       least = std::min(least, turn_cosine(topology_.quad(candidate.patch.quads[i]), mesh_.normals));
-    for (std::size_t i = 0; i < normals.size(); ++i)
-      if (!trial.movable[i]) normals[i] = mesh_.normals[trial.nodes[i]];
+    std::vector<Vector3> normals;
+    for (const SurfacePlace& place : places) normals.push_back(place.normal);
     return std::any_of(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads,
                        [&](const Quad& quad) { return turn_cosine(quad, normals) < least; });
   }
@@ -445,24 +472,11 @@ class Mending : private EditedMesh {
     return topology_.replace(old, quads);
   }
 
-  void settle(const Trial& trial, const std::vector<Vector2>& uv, const std::vector<Vector3>& normals) {
-    for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
-      const int node = trial.nodes[i];
-      changed_[node] = 1;
-      if (!trial.movable[i]) continue;
-      mesh_.mesh.points[node] = trial.points[i];
-      mesh_.parameters[node] = uv[i];
-      mesh_.normals[node] = normals[i];
-      const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
-      for (int k = 0, side = fan.first; k < fan.quads; ++k, side = topology_.rotate(side))
-        if (side >> 2 < static_cast<int>(measured_.size())) measured_[side >> 2].reset();
-    }
-  }
-
   const MeshSurface& surface_;
   double poor_, least_turn_cosine_;
   std::vector<char> changed_;  ///< (nodes) 1 = of a trial that was carried out
-  mutable std::vector<std::optional<QuadObjective>> measured_;  ///< (quads) filled on demand
+  Objectives objectives_{*this};
+  PatchFillings fillings_{*this, objectives_};
 };
 
 }  // namespace

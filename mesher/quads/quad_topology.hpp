@@ -44,6 +44,21 @@ class QuadTopology {
   int rotate(int side) const { return twins_[previous(side)]; }
   /// The fan around the origin of a side. Time: linear in its quads.
   Fan fan(int side) const;
+  /// Calls visit(quad) for the quads of the fan around the origin of a side, until it returns false.
+  /// \return whether it never did.
+  template <class Visit>
+  bool all_around(int side, Visit&& visit) const {
+    const Fan around = fan(side);
+    side = around.first;
+    for (int i = 0; i < around.quads; ++i, side = rotate(side))
+      if (!visit(side >> 2)) return false;
+    return true;
+  }
+  /// Adds the quads of the fan around the origin of a side to a patch. False if they do not fit.
+  template <class Patch>
+  bool add_fan(int side, Patch& patch) const {
+    return all_around(side, [&](int quad) { return patch.add(quad); });
+  }
   /// The number of quads in the fan around the origin of a side. Constant time if the node has only one fan.
   int valence(int side) const {
     const int node = origin(side);

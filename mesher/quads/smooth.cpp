@@ -37,216 +37,161 @@ constexpr double poor_jacobian = 0.7071;
 /// Elements below this (q < 0.33) are worked on longer; they are few.
 constexpr double bad_jacobian = 0.5;
 
-/// Smooths one surface mesh in place. Nodes are visited in index order and see the moves of the nodes before
-/// them.
-class Smoother {
- public:
-  Smoother(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ExecutionContext& context)
-      : points_(surface_mesh.mesh.points),
-        quads_(surface_mesh.mesh.quads),
-        parameters_(surface_mesh.parameters),
-        normals_(surface_mesh.normals),
-        surface_(surface),
-        context_(context) {
-    const std::size_t n = points_.size();
-    free_.resize(n);
-    for (std::size_t i = 0; i < n; ++i) free_[i] = surface_mesh.fixed[i] ? 0 : 1;
+/// A surface mesh whose nodes move one after the other, with the quality of the quads around them.
+struct SmoothedMesh {
+  SmoothedMesh(SurfaceMesh& surface_mesh, const MeshSurface& on, const ExecutionContext& within)
+      : nodes(surface_mesh),
+        points(surface_mesh.mesh.points),
+        quads(surface_mesh.mesh.quads),
+        normals(surface_mesh.normals),
+        surface(on),
+        context(within),
+        free(points.size()),
+        quality(quads.size()) {
+    for (std::size_t i = 0; i < free.size(); ++i) free[i] = surface_mesh.fixed[i] ? 0 : 1;
     // The nodes of remaining triangles stay, since only quads are measured here.
     for (const auto& triangle : surface_mesh.mesh.triangles)
-      for (const int node : triangle) free_[node] = 0;
-    context_.check();
-    corners_ = corners_by_node(n, quads_, SparseCheck(context_, 512));
-    context_.check();
-    find_sharp_turns();
-    quality_.resize(quads_.size());
+      for (const int node : triangle) free[node] = 0;
+    context.check();
+    corners = corners_by_node(points.size(), quads, SparseCheck(context, 512));
+    context.check();
     measure_all();
-    active_.assign(n, 1);
-    next_active_.assign(n, 0);
   }
 
-  /// Moves each active node once; false when nothing is active any more.
-  bool sweep() {
+  /// Checks for cancellation in loops over nodes or elements.
+  void check(int i) const {
+    if (i % 256 == 0) context.check();
+  }
+
+  /// Calls visit(node) for each free node, in index order. \return whether a call returned true.
+  template <class Visit>
+  bool visit_free(Visit&& visit) {
     bool any = false;
-    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
+    for (int node = 0; node < static_cast<int>(points.size()); ++node) {
       check(node);
-      if (!free_[node] || !active_[node] || turns_sharply_[node]) continue;
-      if (relax(node)) {
-        any = true;
-        activate(node, next_active_);
-      }
-    }
-    active_.swap(next_active_);
-    std::fill(next_active_.begin(), next_active_.end(), 0);
-    return any;
-  }
-
-  /// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.
-  bool optimize_below(double floor) {
-    bool any = false;
-    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
-      check(node);
-      if (!free_[node] || !(least_round(node) < floor)) continue;
-      if (!search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle)) continue;
-      any = true;
-      activate(node, active_);
-    }
-    return any;
-  }
-
-  /// Moves each node of an inverted element to where the least of its corner areas, each divided by the
-  /// lengths of its sides, is largest. The search is exact, so that it finds the thin wedges at cusps too.
-  /// Returns whether a node moved.
-  bool untangle() {
-    bool any = false;
-    for (int node = 0; node < static_cast<int>(points_.size()); ++node) {
-      check(node);
-      if (free_[node] && !(least_round(node) > 0) && spread_corners(node)) any = true;
-    }
-    return any;
-  }
-
-  /// Helps elements below `floor` that moves of single nodes cannot help (rows of flat quads against a wall).
-  /// Averages all nodes near the element without regard to shapes, then repairs them. Keeps the result only
-  /// if the worst element there is better than before. \param most_failures gives up after this many failures
-  /// in a row: the face is then too narrow for its size.
-  bool loosen_below(double floor, int most_failures) {
-    bool any = false;
-    int failures = 0;
-    // Such places are few. If a whole face is folded, work on single elements cannot repair it.
-    constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
-    std::size_t left = nodes_each * points_.size() + nodes_at_least;
-    for (int quad = 0; quad < static_cast<int>(quads_.size()) && failures < most_failures; ++quad) {
-      if (!(quality_[quad] < floor) || pinned(quad)) continue;
-      context_.check();
-      const bool better = loosen(quad, left);
-      if (left == 0) break;
-      failures = better ? 0 : failures + 1;
-      any |= better;
+      if (free[node] && visit(node)) any = true;
     }
     return any;
   }
 
   /// Measures all quads exactly, since sweeps judge them in tangent planes.
   void measure_all() {
-    for (int i = 0; i < static_cast<int>(quads_.size()); ++i) {
+    for (int i = 0; i < static_cast<int>(quads.size()); ++i) {
       check(i);
-      quality_[i] = measure(i);
+      quality[i] = measure(i);
     }
   }
 
-  int bad_elements() const {
-    return static_cast<int>(
-        std::count_if(quality_.begin(), quality_.end(), [](double s) { return !(s > 0); }));
-  }
-
- private:
-  enum class Goal { raise, untangle };
-
-  /// Checks for cancellation in loops over nodes or elements.
-  void check(int i) const {
-    if (i % 256 == 0) context_.check();
-  }
-
-  /// Marks nodes where the surface turns far from one node to the next, as around a tube of four coarse
-  /// quads. There, averages in tangent planes would pull a node further to the side to which it leans.
-  void find_sharp_turns() {
-    constexpr double least_cosine = 0.1;
-    turns_sharply_.assign(points_.size(), 0);
-    for (const auto& quad : quads_)
-      for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) & 3];
-        if (normals_[a].dot(normals_[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
-      }
-  }
-
   double measure(int quad) const {
-    const auto& q = quads_[quad];
-    const Vector3 normal = normals_[q[0]] + normals_[q[1]] + normals_[q[2]] + normals_[q[3]];
-    return folded_scaled_jacobian(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normal);
+    const auto& q = quads[quad];
+    const Vector3 normal = normals[q[0]] + normals[q[1]] + normals[q[2]] + normals[q[3]];
+    return folded_scaled_jacobian(points[q[0]], points[q[1]], points[q[2]], points[q[3]], normal);
+  }
+
+  void measure_round(int node) {
+    for (const Side corner : corners[node]) quality[element_of(corner)] = measure(element_of(corner));
   }
 
   double least_round(int node) const {
     double least = 1;
-    for (const Side corner : corners_[node]) least = std::min(least, quality_[element_of(corner)]);
+    for (const Side corner : corners[node]) least = std::min(least, quality[element_of(corner)]);
     return least;
   }
 
   /// Least scaled Jacobian around the node if it were at `p`.
   double least_at(int node, const Vector3& p, const Vector3& normal) const {
     double least = 1;
-    for (const Side corner : corners_[node]) {
-      const auto& q = quads_[element_of(corner)];
+    for (const Side corner : corners[node]) {
+      const auto& q = quads[element_of(corner)];
       const int j = index_of(corner);
-      least = std::min(least, folded_scaled_jacobian(p, points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]],
-                                                     points_[q[(j + 3) & 3]], normal));
+      least = std::min(least, folded_scaled_jacobian(p, points[q[(j + 1) & 3]], points[q[(j + 2) & 3]],
+                                                     points[q[(j + 3) & 3]], normal));
     }
     return least;
   }
 
-  /// How far the corner areas that `p` touches fall short of a small positive area, in all, over the squared
-  /// size: negative, or 0 if none does.
-  double tangle_at(int node, const Vector3& p, const Vector3& normal, double size) const {
-    double sum = 0;
-    const double wanted = 0.02 * size * size;
-    for (const Side corner : corners_[node]) {
-      const auto& q = quads_[element_of(corner)];
-      const int j = index_of(corner);
-      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
-      sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
-      sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
-      sum += std::min(0.0, (p - d).cross(c - d).dot(normal) - wanted);
-    }
-    return sum / (size * size);
-  }
-
-  /// What the search raises: the least scaled Jacobian, reduced if a side gets short compared to the others.
-  /// By the worst angle alone, the best place would often be that of a neighbor.
-  double merit_at(int node, const Vector3& p, const Vector3& normal) const {
-    const double least = least_at(node, p, normal);
-    if (least <= 0) return least;
-    double shortest = std::numeric_limits<double>::max(), sum = 0;
-    for (const Side corner : corners_[node]) {
-      const double side = (points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]] - p).squaredNorm();
-      shortest = std::min(shortest, side);
-      sum += std::sqrt(side);
-    }
-    const double share =
-        std::sqrt(shortest) * static_cast<double>(corners_[node].size()) / (short_side * sum);
-    return least * std::min(1.0, share);
-  }
-
   double mean_side(int node) const {
     double sum = 0;
-    for (const Side corner : corners_[node])
-      sum += (points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]] - points_[node]).norm();
-    return sum / static_cast<double>(std::max<std::size_t>(corners_[node].size(), 1));
+    for (const Side corner : corners[node])
+      sum += (points[quads[element_of(corner)][(index_of(corner) + 1) & 3]] - points[node]).norm();
+    return sum / static_cast<double>(std::max<std::size_t>(corners[node].size(), 1));
   }
 
   /// The mean of the neighbors, in the tangent plane of the node.
   Vector3 middle_of(int node) const {
     Vector3 sum = Vector3::Zero();
-    for (const Side corner : corners_[node])
-      sum += points_[quads_[element_of(corner)][(index_of(corner) + 1) & 3]];
-    const Vector3 shift = sum / static_cast<double>(corners_[node].size()) - points_[node];
-    return points_[node] + shift - normals_[node].dot(shift) * normals_[node];
+    for (const Side corner : corners[node])
+      sum += points[quads[element_of(corner)][(index_of(corner) + 1) & 3]];
+    const Vector3 shift = sum / static_cast<double>(corners[node].size()) - points[node];
+    return points[node] + shift - normals[node].dot(shift) * normals[node];
+  }
+
+  /// Marks the nodes of the quads around a node.
+  void mark_around(int node, std::vector<char>& marks) const {
+    for (const Side corner : corners[node])
+      for (const int other : quads[element_of(corner)]) marks[other] = 1;
+  }
+
+  SurfacePlace moved(int node, const Vector3& target) const { return nodes.moved(surface, node, target); }
+  void put(int node, const SurfacePlace& place) {
+    nodes.put(node, place);
+    measure_round(node);
+  }
+
+  SurfaceMesh& nodes;
+  std::vector<Vector3>& points;
+  const std::vector<std::array<int, 4>>& quads;
+  std::vector<Vector3>& normals;
+  const MeshSurface& surface;
+  const ExecutionContext& context;
+  std::vector<char> free;
+  Rows<Side> corners;
+  std::vector<double> quality;  ///< scaled Jacobian of each quad
+};
+
+/// Sweeps of averages, in tangent planes. Nodes see the moves of the nodes before them.
+class Sweeps {
+ public:
+  explicit Sweeps(SmoothedMesh& mesh)
+      : mesh_(mesh), active_(mesh.points.size(), 1), next_active_(mesh.points.size(), 0) {
+    find_sharp_turns();
+  }
+
+  /// Moves each active node once; false when nothing is active any more.
+  bool sweep() {
+    const bool any = mesh_.visit_free([&](int node) {
+      if (!active_[node] || turns_sharply_[node] || !relax(node)) return false;
+      mesh_.mark_around(node, next_active_);
+      return true;
+    });
+    active_.swap(next_active_);
+    std::fill(next_active_.begin(), next_active_.end(), 0);
+    return any;
+  }
+
+  /// Makes the nodes around one that was moved active.
+  void wake_around(int node) { mesh_.mark_around(node, active_); }
+
+ private:
+  /// Marks nodes where the surface turns far from one node to the next, as around a tube of four coarse
+  /// quads. There, averages in tangent planes would pull a node further to the side to which it leans.
+  void find_sharp_turns() {
+    constexpr double least_cosine = 0.1;
+    turns_sharply_.assign(mesh_.points.size(), 0);
+    for (const auto& quad : mesh_.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (mesh_.normals[a].dot(mesh_.normals[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
+      }
   }
 
   /// \return whether the plan has all quads of the node
   bool draw(int node, TangentPlan& plan) const {
-    for (const Side corner : corners_[node]) {
-      const auto& q = quads_[element_of(corner)];
+    for (const Side corner : mesh_.corners[node]) {
+      const auto& q = mesh_.quads[element_of(corner)];
       const int j = index_of(corner);
-      if (!plan.add(points_[q[(j + 1) & 3]], points_[q[(j + 2) & 3]], points_[q[(j + 3) & 3]])) return false;
-    }
-    return true;
-  }
-
-  /// \return whether the patch has all quads of the node
-  bool draw(int node, const Vector3& u, const Vector3& v, CriteriaPatch& patch) const {
-    for (const Side corner : corners_[node]) {
-      const auto& q = quads_[element_of(corner)];
-      const FlatQuad flat(points_[q[0]], points_[q[1]], points_[q[2]], points_[q[3]], normals_[node], u, v);
-      if (!patch.add(flat, index_of(corner))) return false;
+      if (!plan.add(mesh_.points[q[(j + 1) & 3]], mesh_.points[q[(j + 2) & 3]], mesh_.points[q[(j + 3) & 3]]))
+        return false;
     }
     return true;
   }
@@ -256,7 +201,7 @@ class Smoother {
   /// sweeps the mean quality that plain averages of neighbors reach in 8. Weights by length or area, and
   /// parallelogram targets, gave less.
   bool relax(int node) {
-    TangentPlan plan(points_[node], normals_[node]);
+    TangentPlan plan(mesh_.points[node], mesh_.normals[node]);
     if (!draw(node, plan) || plan.count() == 0) return false;
     double x = 0, y = 0, size2 = 0;
     for (int i = 0; i < plan.count(); ++i) {
@@ -270,7 +215,7 @@ class Smoother {
     y *= share;
     size2 /= plan.count();
     if (x * x + y * y < still_share * still_share * size2) return false;
-    const double floor = std::min(least_round(node), good_jacobian);
+    const double floor = std::min(mesh_.least_round(node), good_jacobian);
     if (!plan.fits(x, y, floor)) {
       x *= 0.5;
       y *= 0.5;
@@ -281,262 +226,305 @@ class Smoother {
 
   /// Puts the node on the surface near the accepted place in its tangent plane.
   bool settle_sweep(int node, TangentPlan& plan, double x, double y, double floor, double size2) {
-    Vector2 uv = parameters_[node];
-    Vector3 normal = normals_[node];
-    const Vector3 place = surface_.move(uv, plan.place(x, y), normal);
-    const auto [px, py] = plan.coordinates(place);
+    const SurfacePlace place = mesh_.moved(node, plan.place(x, y));
+    const auto [px, py] = plan.coordinates(place.point);
     const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
     // If the surface is not that near to the place, judge again; reject a place that is not finite.
-    if (!(off2 < near_share * near_share * size2) && !(place.allFinite() && plan.fits(px, py, floor)))
+    if (!(off2 < near_share * near_share * size2) && !(place.point.allFinite() && plan.fits(px, py, floor)))
       return false;
-    points_[node] = place;
-    parameters_[node] = uv;
-    normals_[node] = normal;
-    for (int i = 0; i < plan.count(); ++i) quality_[element_of(corners_[node][i])] = plan.quality(i);
+    mesh_.nodes.put(node, place);
+    for (int i = 0; i < plan.count(); ++i)
+      mesh_.quality[element_of(mesh_.corners[node][i])] = plan.quality(i);
     return true;
   }
 
-  void put(int node, const Vector3& place, const Vector2& uv, const Vector3& normal) {
-    points_[node] = place;
-    parameters_[node] = uv;
-    normals_[node] = normal;
-    measure_round(node);
-  }
-
-  void measure_round(int node) {
-    for (const Side corner : corners_[node]) quality_[element_of(corner)] = measure(element_of(corner));
-  }
-
-  void activate(int node, std::vector<char>& active) const {
-    for (const Side corner : corners_[node])
-      for (const int other : quads_[element_of(corner)]) active[other] = 1;
-  }
-
-  /// Compass search in the tangent plane for the place where the worst element around the node is best.
-  bool search(int node, Goal goal) {
-    using Lanes = CriteriaPatch::Lanes;
-    const Vector3 origin = points_[node], normal = normals_[node];
-    const double size = mean_side(node);
-    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-    CriteriaPatch patch(u, v);
-    if (!(size > 0) || (goal == Goal::raise && !draw(node, u, v, patch))) return false;
-    const auto values_at = [&](const Lanes& x, const Lanes& y) {
-      if (goal == Goal::raise) return patch.merits(x, y, short_side);
-      Lanes result;
-      for (int k = 0; k < CriteriaPatch::lanes; ++k)
-        result[k] = tangle_at(node, origin + x[k] * u + y[k] * v, normal, size);
-      return result;
-    };
-    const Vector3 to_middle = middle_of(node) - origin;
-    const double middle_x = u.dot(to_middle), middle_y = v.dot(to_middle);
-    const Lanes first = values_at({0, middle_x}, {0, middle_y});
-    double value = first[0], best_x = 0, best_y = 0;
-    if (first[1] > value) {
-      value = first[1];
-      best_x = middle_x;
-      best_y = middle_y;
-    }
-    constexpr double diagonal = 0.70710678118654752;
-    constexpr Lanes compass_x{1, 0, -1, 0, diagonal, -diagonal, -diagonal, diagonal};
-    constexpr Lanes compass_y{0, 1, 0, -1, diagonal, diagonal, -diagonal, -diagonal};
-    double step = 0.25 * size;
-    for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
-      for (int tries = 0; tries < 3; ++tries) {
-        Lanes x, y;
-        for (int k = 0; k < CriteriaPatch::lanes; ++k) {
-          x[k] = best_x + step * compass_x[k];
-          y[k] = best_y + step * compass_y[k];
-        }
-        const Lanes values = values_at(x, y);
-        const auto best = std::max_element(values.begin(), values.end()) - values.begin();
-        if (!(values[best] > value)) break;
-        value = values[best];
-        best_x = x[best];
-        best_y = y[best];
-      }
-    }
-    if (value <= first[0] || (best_x == 0 && best_y == 0)) return false;
-    return settle(node, origin + best_x * u + best_y * v, goal, size);
-  }
-
-  /// The corner areas are linear in the node's place, so the least of them is concave. Nested golden-section
-  /// searches find where it is largest.
-  bool spread_corners(int node) {
-    struct Area {
-      double x, y, constant;
-      double at(double px, double py) const { return constant + x * px + y * py; }
-    };
-    const Vector3& origin = points_[node];
-    const Vector3& normal = normals_[node];
-    const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-    std::vector<Area> areas;
-    // The corner at b between a and c, one of which is the node: constant + gradient times the node's move.
-    const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
-      const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
-      areas.push_back(
-          {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
-    };
-    for (const Side corner : corners_[node]) {
-      const auto& q = quads_[element_of(corner)];
-      const int j = index_of(corner);
-      const Vector3 &b = points_[q[(j + 1) & 3]], &c = points_[q[(j + 2) & 3]], &d = points_[q[(j + 3) & 3]];
-      add(d, origin, b, normal.cross(b - d));
-      add(origin, b, c, normal.cross(c - b));
-      add(c, d, origin, normal.cross(d - c));
-    }
-    const auto least = [&](double x, double y) {
-      double value = std::numeric_limits<double>::max();
-      for (const Area& area : areas) value = std::min(value, area.at(x, y));
-      return value;
-    };
-    const double reach = 1.5 * mean_side(node);
-    const auto best_y = [&](double x) {
-      return golden_section(reach, [&](double y) { return least(x, y); });
-    };
-    const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
-    Vector2 uv = parameters_[node];
-    Vector3 moved_normal = normal;
-    const Vector3 place = surface_.move(uv, origin + x * u + best_y(x) * v, moved_normal);
-    if (!place.allFinite() || !(least_at(node, place, moved_normal) > least_round(node))) return false;
-    put(node, place, uv, moved_normal);
-    return true;
-  }
-
-  /// Where in [-reach, reach] a concave function is largest.
-  template <class Function>
-  static double golden_section(double reach, Function&& function) {
-    constexpr double golden_ratio = 0.61803398874989485;
-    double low = -reach, high = reach;
-    double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
-    double at_a = function(a), at_b = function(b);
-    for (int i = 0; i < 32; ++i) {
-      if (at_a > at_b) {
-        high = b;
-        b = a;
-        at_b = at_a;
-        a = high - golden_ratio * (high - low);
-        at_a = function(a);
-      } else {
-        low = a;
-        a = b;
-        at_a = at_b;
-        b = low + golden_ratio * (high - low);
-        at_b = function(b);
-      }
-    }
-    return 0.5 * (low + high);
-  }
-
-  /// Puts the node on the surface near the place found, if that is better there too.
-  bool settle(int node, const Vector3& target, Goal goal, double size) {
-    Vector2 uv = parameters_[node];
-    Vector3 normal = normals_[node];
-    const Vector3 place = surface_.move(uv, target, normal);
-    if (!place.allFinite()) return false;
-    const Vector3& p = points_[node];
-    const bool better = goal == Goal::raise
-                            ? merit_at(node, place, normal) > merit_at(node, p, normals_[node])
-                            : tangle_at(node, place, normal, size) > tangle_at(node, p, normals_[node], size);
-    if (better) put(node, place, uv, normal);
-    return better;
-  }
-
-  /// Whether three fixed nodes in a row make the quad as bad as it is.
-  bool pinned(int quad) const {
-    const auto& q = quads_[quad];
-    const Vector3& normal = normals_[q[0]];
-    for (int k = 0; k < 4; ++k) {
-      if (free_[q[k]] || free_[q[(k + 1) & 3]] || free_[q[(k + 3) & 3]]) continue;
-      const Vector3 a = points_[q[(k + 1) & 3]] - points_[q[k]], b = points_[q[(k + 3) & 3]] - points_[q[k]];
-      if (a.cross(b).dot(normal) <= 1.05 * quality_[quad] * a.norm() * b.norm()) return true;
-    }
-    return false;
-  }
-
-  /// \param left nodes that may still be worked on, in this call and later ones
-  bool loosen(int quad, std::size_t& left) {
-    struct Saved {
-      int node;
-      Vector3 point, normal;
-      Vector2 uv;
-    };
-    std::vector<int> nodes(quads_[quad].begin(), quads_[quad].end());
-    constexpr int rings = 3;
-    for (int ring = 0; ring < rings; ++ring) {
-      const std::size_t count = nodes.size();
-      for (std::size_t i = 0; i < count; ++i)
-        for (const Side corner : corners_[nodes[i]])
-          for (const int other : quads_[element_of(corner)]) nodes.push_back(other);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    }
-    std::erase_if(nodes, [&](int node) { return !free_[node]; });
-    left -= std::min(left, nodes.size());
-    std::vector<Saved> saved;
-    double before = 1, after = 1;
-    for (const int node : nodes) {
-      saved.push_back({node, points_[node], normals_[node], parameters_[node]});
-      before = std::min(before, least_round(node));
-    }
-    constexpr int averages = 12, mends = 6;
-    for (int i = 0; i < averages; ++i)
-      for (const int node : nodes) points_[node] = middle_of(node);
-    for (const Saved& was : saved) {
-      const Vector3 place = surface_.move(parameters_[was.node], points_[was.node], normals_[was.node]);
-      points_[was.node] = place;
-      if (place.allFinite()) continue;
-      points_[was.node] = was.point;
-      parameters_[was.node] = was.uv;
-      normals_[was.node] = was.normal;
-    }
-    for (const int node : nodes) measure_round(node);
-    for (int i = 0; i < mends; ++i)
-      for (const int node : nodes)
-        if (least_round(node) < bad_jacobian)
-          search(node, least_round(node) > 0 ? Goal::raise : Goal::untangle);
-    for (const int node : nodes) after = std::min(after, least_round(node));
-    if (after > before) return true;
-    for (const Saved& was : saved) {
-      points_[was.node] = was.point;
-      normals_[was.node] = was.normal;
-      parameters_[was.node] = was.uv;
-    }
-    for (const int node : nodes) measure_round(node);
-    return false;
-  }
-
-  std::vector<Vector3>& points_;
-  const std::vector<std::array<int, 4>>& quads_;
-  std::vector<Vector2>& parameters_;
-  std::vector<Vector3>& normals_;
-  const MeshSurface& surface_;
-  const ExecutionContext& context_;
-  std::vector<char> free_, active_, next_active_, turns_sharply_;
-  Rows<Side> corners_;
-  std::vector<double> quality_;  ///< scaled Jacobian of each quad
+  SmoothedMesh& mesh_;
+  std::vector<char> active_, next_active_, turns_sharply_;
 };
+
+enum class Goal { raise, untangle };
+
+/// How far the corner areas that `p` touches fall short of a small positive area, in all, over the squared
+/// size: negative, or 0 if none does.
+double tangle_at(const SmoothedMesh& m, int node, const Vector3& p, const Vector3& normal, double size) {
+  double sum = 0;
+  const double wanted = 0.02 * size * size;
+  for (const Side corner : m.corners[node]) {
+    const auto& q = m.quads[element_of(corner)];
+    const int j = index_of(corner);
+    const Vector3 &b = m.points[q[(j + 1) & 3]], &c = m.points[q[(j + 2) & 3]], &d = m.points[q[(j + 3) & 3]];
+    sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
+    sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
+    sum += std::min(0.0, (p - d).cross(c - d).dot(normal) - wanted);
+  }
+  return sum / (size * size);
+}
+
+/// What the search raises: the least scaled Jacobian, reduced if a side gets short compared to the others.
+/// By the worst angle alone, the best place would often be that of a neighbor.
+double merit_at(const SmoothedMesh& m, int node, const Vector3& p, const Vector3& normal) {
+  const double least = m.least_at(node, p, normal);
+  if (least <= 0) return least;
+  double shortest = std::numeric_limits<double>::max(), sum = 0;
+  for (const Side corner : m.corners[node]) {
+    const double side = (m.points[m.quads[element_of(corner)][(index_of(corner) + 1) & 3]] - p).squaredNorm();
+    shortest = std::min(shortest, side);
+    sum += std::sqrt(side);
+  }
+  const double share = std::sqrt(shortest) * static_cast<double>(m.corners[node].size()) / (short_side * sum);
+  return least * std::min(1.0, share);
+}
+
+/// \return whether the patch has all quads of the node
+bool draw(const SmoothedMesh& m, int node, const Vector3& u, const Vector3& v, CriteriaPatch& patch) {
+  for (const Side corner : m.corners[node]) {
+    const auto& q = m.quads[element_of(corner)];
+    const FlatQuad flat(m.points[q[0]], m.points[q[1]], m.points[q[2]], m.points[q[3]], m.normals[node], u,
+                        v);
+    if (!patch.add(flat, index_of(corner))) return false;
+  }
+  return true;
+}
+
+/// Puts the node on the surface near the place found, if that is better there too.
+bool settle(SmoothedMesh& m, int node, const Vector3& target, Goal goal, double size) {
+  const SurfacePlace place = m.moved(node, target);
+  if (!place.point.allFinite()) return false;
+  const auto value = [&](const Vector3& p, const Vector3& normal) {
+    return goal == Goal::raise ? merit_at(m, node, p, normal) : tangle_at(m, node, p, normal, size);
+  };
+  const bool better = value(place.point, place.normal) > value(m.points[node], m.normals[node]);
+  if (better) m.put(node, place);
+  return better;
+}
+
+/// Compass search in the tangent plane for the place where the worst element around the node is best.
+bool search(SmoothedMesh& m, int node) {
+  const Goal goal = m.least_round(node) > 0 ? Goal::raise : Goal::untangle;
+  using Lanes = CriteriaPatch::Lanes;
+  const Vector3 origin = m.points[node], normal = m.normals[node];
+  const double size = m.mean_side(node);
+  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  CriteriaPatch patch(u, v);
+  if (!(size > 0) || (goal == Goal::raise && !draw(m, node, u, v, patch))) return false;
+  const auto values_at = [&](const Lanes& x, const Lanes& y) {
+    if (goal == Goal::raise) return patch.merits(x, y, short_side);
+    Lanes result;
+    for (int k = 0; k < CriteriaPatch::lanes; ++k)
+      result[k] = tangle_at(m, node, origin + x[k] * u + y[k] * v, normal, size);
+    return result;
+  };
+  const Vector3 to_middle = m.middle_of(node) - origin;
+  const double middle_x = u.dot(to_middle), middle_y = v.dot(to_middle);
+  const Lanes first = values_at({0, middle_x}, {0, middle_y});
+  double value = first[0], best_x = 0, best_y = 0;
+  if (first[1] > value) {
+    value = first[1];
+    best_x = middle_x;
+    best_y = middle_y;
+  }
+  constexpr double diagonal = 0.70710678118654752;
+  constexpr Lanes compass_x{1, 0, -1, 0, diagonal, -diagonal, -diagonal, diagonal};
+  constexpr Lanes compass_y{0, 1, 0, -1, diagonal, diagonal, -diagonal, -diagonal};
+  double step = 0.25 * size;
+  for (int halvings = 0; halvings < 4; ++halvings, step *= 0.5) {
+    for (int tries = 0; tries < 3; ++tries) {
+      Lanes x, y;
+      for (int k = 0; k < CriteriaPatch::lanes; ++k) {
+        x[k] = best_x + step * compass_x[k];
+        y[k] = best_y + step * compass_y[k];
+      }
+      const Lanes values = values_at(x, y);
+      const auto best = std::max_element(values.begin(), values.end()) - values.begin();
+      if (!(values[best] > value)) break;
+      value = values[best];
+      best_x = x[best];
+      best_y = y[best];
+    }
+  }
+  if (value <= first[0] || (best_x == 0 && best_y == 0)) return false;
+  return settle(m, node, origin + best_x * u + best_y * v, goal, size);
+}
+
+/// Where in [-reach, reach] a concave function is largest.
+template <class Function>
+double golden_section(double reach, Function&& function) {
+  constexpr double golden_ratio = 0.61803398874989485;
+  double low = -reach, high = reach;
+  double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
+  double at_a = function(a), at_b = function(b);
+  for (int i = 0; i < 32; ++i) {
+    if (at_a > at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - golden_ratio * (high - low);
+      at_a = function(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + golden_ratio * (high - low);
+      at_b = function(b);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// The corner areas are linear in the node's place, so the least of them is concave. Nested golden-section
+/// searches find where it is largest.
+bool spread_corners(SmoothedMesh& m, int node) {
+  struct Area {
+    double x, y, constant;
+    double at(double px, double py) const { return constant + x * px + y * py; }
+  };
+  const Vector3& origin = m.points[node];
+  const Vector3& normal = m.normals[node];
+  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::vector<Area> areas;
+  // The corner at b between a and c, one of which is the node: constant + gradient times the node's move.
+  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
+    const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
+    areas.push_back(
+        {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
+  };
+  for (const Side corner : m.corners[node]) {
+    const auto& q = m.quads[element_of(corner)];
+    const int j = index_of(corner);
+    const Vector3 &b = m.points[q[(j + 1) & 3]], &c = m.points[q[(j + 2) & 3]], &d = m.points[q[(j + 3) & 3]];
+    add(d, origin, b, normal.cross(b - d));
+    add(origin, b, c, normal.cross(c - b));
+    add(c, d, origin, normal.cross(d - c));
+  }
+  const auto least = [&](double x, double y) {
+    double value = std::numeric_limits<double>::max();
+    for (const Area& area : areas) value = std::min(value, area.at(x, y));
+    return value;
+  };
+  const double reach = 1.5 * m.mean_side(node);
+  const auto best_y = [&](double x) { return golden_section(reach, [&](double y) { return least(x, y); }); };
+  const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
+  const SurfacePlace place = m.moved(node, origin + x * u + best_y(x) * v);
+  if (!place.point.allFinite() || !(m.least_at(node, place.point, place.normal) > m.least_round(node)))
+    return false;
+  m.put(node, place);
+  return true;
+}
+
+/// Whether three fixed nodes in a row make the quad as bad as it is.
+bool pinned(const SmoothedMesh& m, int quad) {
+  const auto& q = m.quads[quad];
+  const Vector3& normal = m.normals[q[0]];
+  for (int k = 0; k < 4; ++k) {
+    if (m.free[q[k]] || m.free[q[(k + 1) & 3]] || m.free[q[(k + 3) & 3]]) continue;
+    const Vector3 a = m.points[q[(k + 1) & 3]] - m.points[q[k]],
+                  b = m.points[q[(k + 3) & 3]] - m.points[q[k]];
+    if (a.cross(b).dot(normal) <= 1.05 * m.quality[quad] * a.norm() * b.norm()) return true;
+  }
+  return false;
+}
+
+/// \param left nodes that may still be worked on, in this call and later ones
+bool loosen(SmoothedMesh& m, int quad, std::size_t& left) {
+  std::vector<int> nodes(m.quads[quad].begin(), m.quads[quad].end());
+  constexpr int rings = 3;
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::size_t count = nodes.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (const Side corner : m.corners[nodes[i]])
+        for (const int other : m.quads[element_of(corner)]) nodes.push_back(other);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  std::erase_if(nodes, [&](int node) { return !m.free[node]; });
+  left -= std::min(left, nodes.size());
+  const auto least = [&] {
+    double result = 1;
+    for (const int node : nodes) result = std::min(result, m.least_round(node));
+    return result;
+  };
+  const double before = least();
+  std::vector<SurfacePlace> saved;
+  for (const int node : nodes) saved.push_back(m.nodes.place_of(node));
+  constexpr int averages = 12, mends = 6;
+  for (int i = 0; i < averages; ++i)
+    for (const int node : nodes) m.points[node] = m.middle_of(node);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const SurfacePlace place = m.moved(nodes[i], m.points[nodes[i]]);
+    m.nodes.put(nodes[i], place.point.allFinite() ? place : saved[i]);
+  }
+  for (const int node : nodes) m.measure_round(node);
+  for (int i = 0; i < mends; ++i)
+    for (const int node : nodes)
+      if (m.least_round(node) < bad_jacobian) search(m, node);
+  if (least() > before) return true;
+  for (std::size_t i = 0; i < nodes.size(); ++i) m.nodes.put(nodes[i], saved[i]);
+  for (const int node : nodes) m.measure_round(node);
+  return false;
+}
+
+/// Helps elements below `floor` that moves of single nodes cannot help (rows of flat quads against a wall).
+/// Averages all nodes near the element without regard to shapes, then repairs them. Keeps the result only
+/// if the worst element there is better than before. \param most_failures gives up after this many failures
+/// in a row: the face is then too narrow for its size.
+bool loosen_below(SmoothedMesh& m, double floor, int most_failures) {
+  bool any = false;
+  int failures = 0;
+  // Such places are few. If a whole face is folded, work on single elements cannot repair it.
+  constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
+  std::size_t left = nodes_each * m.points.size() + nodes_at_least;
+  for (int quad = 0; quad < static_cast<int>(m.quads.size()) && failures < most_failures; ++quad) {
+    if (!(m.quality[quad] < floor) || pinned(m, quad)) continue;
+    m.context.check();
+    const bool better = loosen(m, quad, left);
+    if (left == 0) break;
+    failures = better ? 0 : failures + 1;
+    any |= better;
+  }
+  return any;
+}
+
+/// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.
+bool optimize_below(double floor, SmoothedMesh& m, Sweeps& sweeps) {
+  return m.visit_free([&](int node) {
+    if (!(m.least_round(node) < floor) || !search(m, node)) return false;
+    sweeps.wake_around(node);
+    return true;
+  });
+}
+
+/// Moves each node of an inverted element to where the least of its corner areas, each divided by the
+/// lengths of its sides, is largest. The search is exact, so that it finds the thin wedges at cusps too.
+/// Returns whether a node moved.
+bool untangle(SmoothedMesh& m) {
+  return m.visit_free([&](int node) { return !(m.least_round(node) > 0) && spread_corners(m, node); });
+}
 
 }  // namespace
 
 void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
             ImproveReport& report, ExecutionContext& context) {
-  Smoother smoother(surface_mesh, surface, context);
-  for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;
-  for (int i = 0; i < options.smoothing_sweeps && smoother.sweep(); ++i) continue;
-  smoother.measure_all();
-  for (int i = 0; i < 10 && smoother.optimize_below(1e-3); ++i) continue;
+  SmoothedMesh mesh(surface_mesh, surface, context);
+  Sweeps sweeps(mesh);
+  const auto optimize = [&](int times, double floor) {
+    for (int i = 0; i < times && optimize_below(floor, mesh, sweeps); ++i) continue;
+  };
+  optimize(10, 1e-3);
+  for (int i = 0; i < options.smoothing_sweeps && sweeps.sweep(); ++i) continue;
+  mesh.measure_all();
+  optimize(10, 1e-3);
   // Alternate between the worst elements and their surroundings, which have to give way.
-  for (int i = 0; i < 8 && smoother.optimize_below(bad_jacobian); ++i) {
-    for (int k = 0; k < 3 && smoother.sweep(); ++k) continue;
-    smoother.measure_all();
+  for (int i = 0; i < 8 && optimize_below(bad_jacobian, mesh, sweeps); ++i) {
+    for (int k = 0; k < 3 && sweeps.sweep(); ++k) continue;
+    mesh.measure_all();
   }
   constexpr double half_pi = 1.57079632679489662, q_floor = 0.25;
   constexpr int most_failures = 4;
-  if (smoother.loosen_below(std::sin(half_pi * q_floor), most_failures))
-    for (int i = 0; i < 2 && smoother.optimize_below(bad_jacobian); ++i) continue;
-  for (int i = 0; i < 2 && smoother.optimize_below(poor_jacobian); ++i) continue;
-  for (int i = 0; i < 10 && smoother.untangle(); ++i) continue;
-  report.bad_elements = smoother.bad_elements();
+  if (loosen_below(mesh, std::sin(half_pi * q_floor), most_failures)) optimize(2, bad_jacobian);
+  optimize(2, poor_jacobian);
+  for (int i = 0; i < 10 && untangle(mesh); ++i) continue;
+  report.bad_elements = static_cast<int>(
+      std::count_if(mesh.quality.begin(), mesh.quality.end(), [](double s) { return !(s > 0); }));
 }
 
 }  // namespace quadrille
