@@ -12,7 +12,6 @@
 #include <numbers>
 #include <span>
 
-#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/quads/cavities.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 #include "mesher/quads/patch_templates.hpp"
@@ -107,7 +106,6 @@ class CleanUp : private EditedMesh {
   const QuadState& state_of(int quad);
   bool try_patch(const SmallPatch& patch);
   bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling);
-  int add_node(int donor);
   void push(int node);
 
   static constexpr std::size_t tried_slots = 1 << 13;
@@ -383,11 +381,6 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
   return false;
 }
 
-int CleanUp::add_node(int donor) {
-  doubtful_.push_back(0);
-  return add_node_like(donor);
-}
-
 bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
   Change change;
   std::array<Quad, SmallPatch::max_quads> old;
@@ -407,12 +400,13 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   for (int i = 0; i < n; ++i)
     if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
   for (int i = 0; i < filling.interior; ++i) {
-    const int node = i < outline.inside_count ? outline.inside[i] : add_node(donor);
+    const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
     saved[i] = mesh_.place_of(node);
     filled.nodes[n + i] = node;
     mesh_.put(node, mesh_.moved(surface_, node, filled.x[n + i]));
     filled.x[n + i] = point(node);
   }
+  doubtful_.resize(mesh_.mesh.points.size(), 0);
   for (int k = 0; k < filling.quads; ++k) {
     const auto& c = filling.corners[k];
     for (int j = 0; j < 4; ++j) change.quads[change.count][j] = filled.nodes[c[j]];

@@ -358,7 +358,8 @@ class Mending : private EditedMesh {
         least_turn_cosine_(least_turn_cosine),
         changed_(mesh.mesh.points.size(), 0) {}
 
-  int run() {
+  /// \param changed see mend_quads() \return the number of refilled patches
+  int run(std::vector<char>& changed) {
     int count = 0;
     for (int pass = 0; pass < passes; ++pass) {
       int done = 0;
@@ -369,12 +370,9 @@ class Mending : private EditedMesh {
       count += done;
       if (done == 0) break;
     }
-    return count;
-  }
-
-  void write_back(std::vector<char>& changed) {
     changed.clear();
-    for (const int node : EditedMesh::write_back()) changed.push_back(changed_[node]);
+    for (const int node : write_back()) changed.push_back(changed_[node]);
+    return count;
   }
 
  private:
@@ -454,6 +452,7 @@ class Mending : private EditedMesh {
     for (int i = 0; i < candidate.patch.count; ++i)
       least = std::min(least, turn_cosine(topology_.quad(candidate.patch.quads[i]), mesh_.normals));
     std::vector<Vector3> normals;
+    normals.reserve(places.size());
     for (const SurfacePlace& place : places) normals.push_back(place.normal);
     return std::any_of(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads,
                        [&](const Quad& quad) { return turn_cosine(quad, normals) < least; });
@@ -490,10 +489,7 @@ double turn_cosine(const std::array<int, 4>& quad, const std::vector<Vector3>& n
 
 int mend_quads(SurfaceMesh& mesh, const MeshSurface& surface, double poor, double least_turn_cosine,
                std::vector<char>& changed, const ExecutionContext& context) {
-  Mending work(mesh, surface, poor, least_turn_cosine, context);
-  const int count = work.run();
-  work.write_back(changed);
-  return count;
+  return Mending(mesh, surface, poor, least_turn_cosine, context).run(changed);
 }
 
 }  // namespace quadrille

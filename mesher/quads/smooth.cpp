@@ -154,7 +154,15 @@ class Sweeps {
  public:
   explicit Sweeps(SmoothedMesh& mesh)
       : mesh_(mesh), active_(mesh.points.size(), 1), next_active_(mesh.points.size(), 0) {
-    find_sharp_turns();
+    // Mark nodes where the surface turns far from one node to the next, as around a tube of four coarse
+    // quads. There, averages in tangent planes would pull a node further to the side to which it leans.
+    constexpr double least_cosine = 0.1;
+    turns_sharply_.assign(mesh_.points.size(), 0);
+    for (const auto& quad : mesh_.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (mesh_.normals[a].dot(mesh_.normals[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
+      }
   }
 
   /// Moves each active node once; false when nothing is active any more.
@@ -173,18 +181,6 @@ class Sweeps {
   void wake_around(int node) { mesh_.mark_around(node, active_); }
 
  private:
-  /// Marks nodes where the surface turns far from one node to the next, as around a tube of four coarse
-  /// quads. There, averages in tangent planes would pull a node further to the side to which it leans.
-  void find_sharp_turns() {
-    constexpr double least_cosine = 0.1;
-    turns_sharply_.assign(mesh_.points.size(), 0);
-    for (const auto& quad : mesh_.quads)
-      for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) & 3];
-        if (mesh_.normals[a].dot(mesh_.normals[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
-      }
-  }
-
   /// \return whether the plan has all quads of the node
   bool draw(int node, TangentPlan& plan) const {
     for (const Side corner : mesh_.corners[node]) {
@@ -221,11 +217,6 @@ class Sweeps {
       y *= 0.5;
       if (!plan.fits(x, y, floor)) return false;
     }
-    return settle_sweep(node, plan, x, y, floor, size2);
-  }
-
-  /// Puts the node on the surface near the accepted place in its tangent plane.
-  bool settle_sweep(int node, TangentPlan& plan, double x, double y, double floor, double size2) {
     const SurfacePlace place = mesh_.moved(node, plan.place(x, y));
     const auto [px, py] = plan.coordinates(place.point);
     const double off2 = (px - x) * (px - x) + (py - y) * (py - y);
@@ -445,6 +436,7 @@ bool loosen(SmoothedMesh& m, int quad, std::size_t& left) {
   };
   const double before = least();
   std::vector<SurfacePlace> saved;
+  saved.reserve(nodes.size());
   for (const int node : nodes) saved.push_back(m.nodes.place_of(node));
   constexpr int averages = 12, mends = 6;
   for (int i = 0; i < averages; ++i)

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <queue>
 
@@ -67,10 +66,6 @@ struct Triangulation {
   double size_at(Edge e) const { return 0.5 * (size[mesh.vertex(e, 0)] + size[mesh.vertex(e, 1)]); }
   bool on_curve(Edge e) const { return span[e].curve >= 0; }
   Vertex opposite_corner(Halfedge h) const { return mesh.target(mesh.next(h)); }
-  int patch_beside(Edge e) const {
-    const Halfedge h = mesh.halfedge(e);
-    return patch[mesh.face(mesh.is_border(h) ? mesh.opposite(h) : h)];
-  }
 
   /// Twice the area of a face as a vector.
   Vector3 area(Face f) const {
@@ -326,12 +321,6 @@ bool may_split_at(const Triangulation& t, Halfedge h, const Vector3& place) {
   return true;
 }
 
-/// Sides on curves are not split, because their nodes are given, unless folds require smaller sizes.
-bool may_not_split(const Triangulation& t, Edge e) {
-  if (!t.on_curve(e)) return false;
-  return t.cap[t.mesh.vertex(e, 0)] == infinity && t.cap[t.mesh.vertex(e, 1)] == infinity;
-}
-
 /// The Delaunay criterion: the angles opposite the side ab sum to more than 180 degrees, that is, the sum
 /// of their cotangents is negative. The new triangles must not fold.
 bool wants_flip(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
@@ -375,7 +364,10 @@ void split_long(Triangulation& t, const FeatureNetwork& network, const SurfaceLo
     edges.clear();
     for (const Edge e : t.mesh.edges()) {
       const double ratio = t.length(e) / t.size_at(e);
-      if (ratio > longest_share && !may_not_split(t, e)) edges.emplace_back(-ratio, e);
+      // Sides on curves are not split, because their nodes are given, unless folds require smaller sizes.
+      if (ratio > longest_share &&
+          !(t.on_curve(e) && std::min(t.cap[t.mesh.vertex(e, 0)], t.cap[t.mesh.vertex(e, 1)]) == infinity))
+        edges.emplace_back(-ratio, e);
     }
     if (edges.empty()) return;
     std::sort(edges.begin(), edges.end());
@@ -391,7 +383,8 @@ void split_long(Triangulation& t, const FeatureNetwork& network, const SurfaceLo
         place = network.curves[span.curve].at(middle);
       } else {
         // A point farther away lies on another sheet of the surface.
-        const Vector3 there = locator.nearest(t.patch_beside(e), half).point;
+        const Face beside = t.mesh.face(t.mesh.is_border(h) ? t.mesh.opposite(h) : h);
+        const Vector3 there = locator.nearest(t.patch[beside], half).point;
         if ((there - half).norm() < 0.4 * t.length(e) && may_split_at(t, h, there)) place = there;
       }
       if (!may_split_near(t, h, place)) continue;

@@ -14,7 +14,6 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
@@ -94,11 +93,7 @@ struct FaceState {
     least_sine.resize(mesh->quads.size());
     active.assign(mesh->points.size(), 1);
     slid.resize(mesh->nodes.size(), 0);
-    weigh();
-  }
-
-  /// Finds the quads in sharp corners. Nodes on the boundary come first.
-  void weigh() {
+    // Find the quads in sharp corners. Nodes on the boundary come first.
     weight.assign(mesh->quads.size(), 1);
     for (std::size_t i = 0; i < mesh->nodes.size(); ++i) {
       if (corners[i].size() != 1) continue;
