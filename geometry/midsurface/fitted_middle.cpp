@@ -7,6 +7,7 @@
 #include <BSplSLib.hxx>
 #include <GeomLib.hxx>
 #include <Geom_BoundedSurface.hxx>
+#include <Precision.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array2OfPnt.hxx>
@@ -33,24 +34,30 @@ class SideFaces {
     }
   }
 
-  /// The nearest foot in the faces; without one, the closest point of the nearest untrimmed surface.
+  /// The nearest foot in the faces; without one, that on the nearest untrimmed surface, which goes on
+  /// straight past its bounds: at the closest point of a border, middles would bend round each corner. At an
+  /// edge between two of the faces, the closest point.
   gp_Pnt nearest(const gp_Pnt& from) const {
+    constexpr double near = 1e-6;  // over the distance
     gp_Pnt inside, outside;
     double least_inside = -1, least_outside = -1;
     for (const Part& part : parts_) {
-      if (const auto foot = part.face->foot(from)) {
-        if (least_inside >= 0 && foot->Distance(from) >= least_inside) continue;
-        least_inside = foot->Distance(from);
-        inside = *foot;
+      const gp_Pnt2d uv = part.face->closest(from);
+      const gp_Pnt closest = part.face->point(uv), straight = on_tangent_plane(*part.face, uv, from);
+      const double distance = closest.Distance(from);
+      if (closest.Distance(straight) <= near * distance + Precision::Confusion() && part.face->holds(uv)) {
+        if (least_inside >= 0 && distance >= least_inside) continue;
+        least_inside = distance;
+        inside = closest;
       }
       if (least_inside >= 0) continue;
-      const gp_Pnt2d uv = part.face->closest(from);
       const gp_Pnt2d kept(std::clamp(uv.X(), part.low[0], part.high[0]),
                           std::clamp(uv.Y(), part.low[1], part.high[1]));
-      const double distance = part.face->point(kept).Distance(from);
-      if (least_outside >= 0 && distance >= least_outside) continue;
-      least_outside = distance;
-      outside = part.face->point(uv);
+      const double to_kept = part.face->point(kept).Distance(from);
+      if (least_outside >= 0 && std::abs(to_kept - least_outside) <= near * to_kept) outside = closest;
+      if (least_outside >= 0 && to_kept >= (1 - near) * least_outside) continue;
+      least_outside = to_kept;
+      outside = straight;
     }
     return least_inside >= 0 ? inside : outside;
   }
@@ -60,6 +67,14 @@ class SideFaces {
     const SkinFace* face;
     std::array<double, 2> low{}, high{};
   };
+
+  /// The foot on the plane that touches a face's surface at (u, v).
+  static gp_Pnt on_tangent_plane(const SkinFace& face, const gp_Pnt2d& uv, const gp_Pnt& from) {
+    const gp_Pnt at = face.point(uv);
+    const auto normal = face.outward(uv);
+    return normal ? from.Translated(gp_Vec(from, at).Dot(gp_Vec(*normal)) * gp_Vec(*normal)) : at;
+  }
+
   std::vector<Part> parts_;
 };
 

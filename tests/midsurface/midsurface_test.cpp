@@ -651,6 +651,37 @@ TEST(MidSurface, JoinsTheFreeFormWallsOfADuct) {
   EXPECT_EQ(free_loops(middle.model), 2);
 }
 
+/// A tube from a square to a circle: four ruled walls whose corners fade away.
+TopoDS_Shape square_to_round(double thickness) {
+  const auto loft = [](double half, double radius) {
+    BRepBuilderAPI_MakeWire square, round;
+    for (int i = 0; i < 4; ++i) {
+      gp_Trsf turn;
+      turn.SetRotation(gp::OZ(), 0.5 * M_PI * i);
+      const auto at = [&](double x, double y, double z) { return gp_Pnt(x, y, z).Transformed(turn); };
+      square.Add(BRepBuilderAPI_MakeEdge(at(-half, -half, 0), at(half, -half, 0)).Edge());
+      const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 75), gp::DZ()), radius);
+      const double c = radius * std::sqrt(0.5);
+      round.Add(BRepBuilderAPI_MakeEdge(circle, at(-c, -c, 75), at(c, -c, 75)).Edge());
+    }
+    BRepOffsetAPI_ThruSections result(Standard_True, Standard_True, 1e-6);
+    result.CheckCompatibility(Standard_False);
+    result.AddWire(square.Wire());
+    result.AddWire(round.Wire());
+    return result.Shape();
+  };
+  return BRepAlgoAPI_Cut(loft(40, 25), loft(40 - thickness, 25 - thickness)).Shape();
+}
+
+/// Up to the corner between two walls each middle goes on straight: no kink there asks for a finer fit.
+TEST(MidSurface, FitsFreeFormWallsUpToTheirCorners) {
+  const MidSurface middle = middle_of(square_to_round(1));
+  expect_right(middle);
+  ASSERT_EQ(middle.faces.size(), 4U);
+  EXPECT_EQ(free_loops(middle.model), 2);
+  for (const MiddleFace& face : middle.faces) EXPECT_LT(face.off, 1e-3 * face.thickness);
+}
+
 TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
   try {
     middle_of(blended_housing());
