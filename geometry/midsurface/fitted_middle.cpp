@@ -1,21 +1,33 @@
-/// Interpolates points equally far from both sides on a grid that is refined until it meets the tolerance.
+/// Interpolates points equally far from both sides on a grid, or along the profile of a wall of revolution,
+/// refined until it meets the tolerance.
 
 #include "geometry/midsurface/fitted_middle.hpp"
 
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <BSplCLib.hxx>
 #include <BSplSLib.hxx>
+#include <GeomConvert.hxx>
 #include <GeomLib.hxx>
+#include <Geom_BSplineCurve.hxx>
+#include <Geom_BoundedCurve.hxx>
 #include <Geom_BoundedSurface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Precision.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Ax1.hxx>
+#include <gp_Lin.hxx>
 #include <iterator>
 #include <map>
 #include <utility>
 
+#include "geometry/midsurface/middle_geometry.hpp"
 #include "geometry/midsurface/parameter_range.hpp"
 
 namespace quadrille {
@@ -33,24 +45,30 @@ class SideFaces {
     }
   }
 
-  /// The nearest foot in the faces; without one, the closest point of the nearest untrimmed surface.
+  /// The nearest foot in the faces; without one, that on the nearest untrimmed surface, which goes on
+  /// straight past its bounds: at the closest point of a border, middles would bend round each corner. At an
+  /// edge between two of the faces, the closest point.
   gp_Pnt nearest(const gp_Pnt& from) const {
+    constexpr double near = 1e-6;  // over the distance
     gp_Pnt inside, outside;
     double least_inside = -1, least_outside = -1;
     for (const Part& part : parts_) {
-      if (const auto foot = part.face->foot(from)) {
-        if (least_inside >= 0 && foot->Distance(from) >= least_inside) continue;
-        least_inside = foot->Distance(from);
-        inside = *foot;
+      const gp_Pnt2d uv = part.face->closest(from);
+      const gp_Pnt closest = part.face->point(uv), straight = on_tangent_plane(*part.face, uv, from);
+      const double distance = closest.Distance(from);
+      if (closest.Distance(straight) <= near * distance + Precision::Confusion() && part.face->holds(uv)) {
+        if (least_inside >= 0 && distance >= least_inside) continue;
+        least_inside = distance;
+        inside = closest;
       }
       if (least_inside >= 0) continue;
-      const gp_Pnt2d uv = part.face->closest(from);
       const gp_Pnt2d kept(std::clamp(uv.X(), part.low[0], part.high[0]),
                           std::clamp(uv.Y(), part.low[1], part.high[1]));
-      const double distance = part.face->point(kept).Distance(from);
-      if (least_outside >= 0 && distance >= least_outside) continue;
-      least_outside = distance;
-      outside = part.face->point(uv);
+      const double to_kept = part.face->point(kept).Distance(from);
+      if (least_outside >= 0 && std::abs(to_kept - least_outside) <= near * to_kept) outside = closest;
+      if (least_outside >= 0 && to_kept >= (1 - near) * least_outside) continue;
+      least_outside = to_kept;
+      outside = straight;
     }
     return least_inside >= 0 ? inside : outside;
   }
@@ -60,6 +78,14 @@ class SideFaces {
     const SkinFace* face;
     std::array<double, 2> low{}, high{};
   };
+
+  /// The foot on the plane that touches a face's surface at (u, v).
+  static gp_Pnt on_tangent_plane(const SkinFace& face, const gp_Pnt2d& uv, const gp_Pnt& from) {
+    const gp_Pnt at = face.point(uv);
+    const auto normal = face.outward(uv);
+    return normal ? from.Translated(gp_Vec(from, at).Dot(gp_Vec(*normal)) * gp_Vec(*normal)) : at;
+  }
+
   std::vector<Part> parts_;
 };
 
@@ -68,7 +94,17 @@ class GridLine {
  public:
   GridLine(const ParameterRange& range, int spans) : range_(range), spans_(spans) {}
 
-  int spans() const { return spans_; }
+  /// The next finer one; none where the error is good enough, or where it fell too little to go on.
+  std::optional<GridLine> finer(double off, double tolerance) const {
+    constexpr int most_spans = 128;
+    constexpr double gain = 0.1;  // error ratio below which refining pays; 1/16 on smooth sides
+    const bool pays = off < gain * before_;
+    const bool is_good = off <= tolerance || (off <= most_tolerances * tolerance && !pays);
+    if (is_good || spans_ >= most_spans) return std::nullopt;
+    GridLine result(range_, std::max(4, 2 * spans_));
+    result.before_ = off;
+    return result;
+  }
   int degree() const { return spans_ == 1 ? 1 : 3; }
   int count() const { return spans_ + degree(); }
   double knot(int i) const { return range_.low + range_.length() * i / spans_; }
@@ -112,6 +148,7 @@ class GridLine {
  private:
   ParameterRange range_;
   int spans_;
+  double before_ = HUGE_VAL;  ///< error of the coarser line
 };
 
 /// How much the direction in which middle points are searched is tilted from the normal of the first side.
@@ -178,6 +215,7 @@ class MiddlePoints {
         own_(skin, with_beside(sides[0], beside)),
         across_(skin, sides[1]),
         tilt_(skin, base_, ranges, beside),
+        ranges_(ranges),
         size_(skin.size()) {}
 
   /// The point on the normal at (u, v) of the first side, or on the tilted normal, that is equally far from
@@ -189,8 +227,16 @@ class MiddlePoints {
   }
 
  private:
+  /// The normal of the first side; at a pole, that beside it.
+  std::optional<gp_Dir> outward_near(const gp_Pnt2d& uv) const {
+    if (const auto outward = base_.outward(uv)) return outward;
+    constexpr double beside = 1e-6;
+    const double middle = ranges_[1].low + 0.5 * ranges_[1].length();
+    return base_.outward({uv.X(), uv.Y() + beside * (middle - uv.Y())});
+  }
+
   std::optional<gp_Pnt> find(const gp_Pnt2d& uv) {
-    const auto outward = base_.outward(uv);
+    const auto outward = outward_near(uv);
     if (!outward) return std::nullopt;
     const gp_Vec tilt = tilt_.at(uv);
     const bool tilted = tilt.Magnitude() > 1e-4;
@@ -215,6 +261,7 @@ class MiddlePoints {
   const SkinFace& base_;
   SideFaces own_, across_;
   Tilt tilt_;
+  std::array<ParameterRange, 2> ranges_;
   double size_;
   std::map<std::pair<double, double>, std::optional<gp_Pnt>> known_;
 };
@@ -258,29 +305,98 @@ std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface)
 
 std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
                                 double tolerance) {
-  constexpr int most_spans = 128;
-  constexpr double gain = 0.1;  // error ratio below which refining pays; 1/16 on smooth sides
   std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
-  std::array<double, 2> before{HUGE_VAL, HUGE_VAL};
   for (;;) {
     const auto surface = interpolate(points, grid);
     if (!surface) return std::nullopt;
     const auto first = off_along(0, *surface, points, grid), second = off_along(1, *surface, points, grid);
     if (!first || !second) return std::nullopt;
     const std::array<double, 2> off{*first, *second};
-    bool finer = false;
+    bool is_finer = false;
     for (int direction = 0; direction < 2; ++direction) {
-      const int spans = grid[direction].spans();
-      const bool pays = off[direction] < gain * before[direction];
-      const bool is_good =
-          off[direction] <= tolerance || (off[direction] <= most_tolerances * tolerance && !pays);
-      if (is_good || spans >= most_spans) continue;
-      before[direction] = off[direction];
-      grid[direction] = GridLine(ranges[direction], std::max(4, 2 * spans));
-      finer = true;
+      const auto finer = grid[direction].finer(off[direction], tolerance);
+      if (!finer) continue;
+      grid[direction] = *finer;
+      is_finer = true;
     }
-    if (!finer) return FittedMiddle{*surface, std::max(off[0], off[1])};
+    if (!is_finer) return FittedMiddle{*surface, std::max(off[0], off[1])};
   }
+}
+
+/// A curve between two profiles of surfaces of revolution.
+struct FittedProfile {
+  Handle(Geom_BSplineCurve) curve;
+  double off = 0;  ///< largest distance found from the true middle
+};
+
+/// The profile along v at u. Its ends that lie on the axis within a tolerance, poles, do so exactly.
+std::optional<FittedProfile> fit_profile(MiddlePoints& points, double u, const ParameterRange& range,
+                                         const gp_Lin& axis, double at_pole, double tolerance) {
+  GridLine grid(range, 1);
+  for (;;) {
+    TColgp_Array1OfPnt poles(1, grid.count());
+    for (int i = 0; i < grid.count(); ++i) {
+      const auto point = points.at(u, grid.value(i));
+      if (!point) return std::nullopt;
+      const gp_Vec along(axis.Direction());
+      const bool is_pole = axis.Distance(*point) < at_pole;
+      poles(i + 1) =
+          is_pole ? axis.Location().Translated(gp_Vec(axis.Location(), *point).Dot(along) * along) : *point;
+    }
+    TColStd_Array1OfInteger orders(1, grid.count());
+    orders.Init(0);
+    int problem = 0;
+    BSplCLib::Interpolate(grid.degree(), grid.flat_knots(), grid.values(), orders, poles, problem);
+    if (problem != 0) return std::nullopt;
+    FittedProfile result{new Geom_BSplineCurve(poles, grid.knots(), grid.multiplicities(), grid.degree())};
+    for (int i = 0; i + 1 < grid.count(); ++i) {
+      for (const double value : grid.between(i)) {
+        const auto point = points.at(u, value);
+        if (!point) return std::nullopt;
+        result.off = std::max(result.off, result.curve->Value(value).Distance(*point));
+      }
+    }
+    const auto finer = grid.finer(result.off, tolerance);
+    if (!finer) return result;
+    grid = *finer;
+  }
+}
+
+/// Extends a profile straight by the margin, but not across the axis, and not from a pole.
+void run_on(FittedProfile& profile, double margin, const gp_Lin& axis, const std::array<int, 4>& beside) {
+  for (const bool after : {false, true}) {
+    if (beside[after ? 3 : 2] >= 0) continue;
+    gp_Pnt end;
+    gp_Vec along;
+    profile.curve->D1(after ? profile.curve->LastParameter() : profile.curve->FirstParameter(), end, along);
+    const double radius = axis.Distance(end);
+    if (radius == 0 || !(along.Magnitude() > 0)) continue;
+    const gp_Vec out = (after ? 1 : -1) * along.Normalized();
+    const double longer = std::min(margin, 0.9 * radius);
+    Handle(Geom_BoundedCurve) curve(profile.curve);
+    GeomLib::ExtendCurveToPoint(curve, end.Translated(longer * out), 1, after);
+    profile.curve = Handle(Geom_BSplineCurve)::DownCast(curve);
+  }
+}
+
+/// The profile at the middle of an angle, turned around the axis by that angle and a little farther.
+std::optional<Handle(Geom_BSplineSurface)> revolved(const FittedProfile& profile, const gp_Ax1& axis,
+                                                    double angle, double margin,
+                                                    const std::array<int, 4>& beside) {
+  constexpr double whole = 2 * M_PI;
+  double radius = 0;
+  for (int i = 1; i <= profile.curve->NbPoles(); ++i)
+    radius = std::max(radius, gp_Lin(axis).Distance(profile.curve->Pole(i)));
+  const bool goes_on = beside[0] < 0 && beside[1] < 0 && angle < whole;
+  const double farther = goes_on ? std::min(margin / radius, 0.45 * (whole - angle)) : 0;
+  const double turn = std::min(angle + 2 * farther, whole);
+  const Handle(Geom_Curve) start = Handle(Geom_Curve)::DownCast(profile.curve->Rotated(axis, -0.5 * turn));
+  const Handle(Geom_Surface) surface = new Geom_RectangularTrimmedSurface(
+      new Geom_SurfaceOfRevolution(start, axis), 0, turn, start->FirstParameter(), start->LastParameter());
+  const Handle(Geom_BSplineSurface) result = GeomConvert::SurfaceToBSplineSurface(surface);
+  if (result.IsNull()) return std::nullopt;
+  if (result->IsUPeriodic()) result->SetUNotPeriodic();
+  return result;
 }
 
 /// The ranges of the first side's surface parameters that both sides cover.
@@ -319,6 +435,17 @@ std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::v
   const auto ranges = common_range(skin, sides);
   if (!(ranges[0].length() > 0) || !(ranges[1].length() > 0)) return std::nullopt;
   MiddlePoints points(skin, sides, ranges, beside);
+  std::vector<int> all = with_beside(sides[0], beside);
+  all.insert(all.end(), sides[1].begin(), sides[1].end());
+  if (const auto axis = common_axis(skin, all)) {
+    const gp_Lin line(*axis);
+    auto profile = fit_profile(points, ranges[0].low + 0.5 * ranges[0].length(), ranges[1], line,
+                               1e-6 * skin.size(), tolerance);
+    if (!profile) return std::nullopt;
+    run_on(*profile, margin, line, beside);
+    const auto surface = revolved(*profile, *axis, ranges[0].length(), margin, beside);
+    return surface ? std::optional(FittedMiddle{*surface, profile->off}) : std::nullopt;
+  }
   auto result = fit(points, ranges, tolerance);
   if (!result) return std::nullopt;
   result->surface = run_on(result->surface, margin, beside);

@@ -134,6 +134,24 @@ std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size
   return gp_Torus(frame, major, circle.Radius());
 }
 
+/// The axis around which a surface's u turns.
+std::optional<gp_Ax1> turning_axis(const BRepAdaptor_Surface& surface) {
+  switch (surface.GetType()) {
+    case GeomAbs_Cylinder:
+      return surface.Cylinder().Axis();
+    case GeomAbs_Cone:
+      return surface.Cone().Axis();
+    case GeomAbs_Sphere:
+      return surface.Sphere().Position().Axis();
+    case GeomAbs_Torus:
+      return surface.Torus().Axis();
+    case GeomAbs_SurfaceOfRevolution:
+      return surface.AxeOfRevolution();
+    default:
+      return std::nullopt;
+  }
+}
+
 Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double size) {
   const double near = same_length * size;
   if (!same_axis(a.Axis(), b.Axis(), size) || a.Location().Distance(b.Location()) > near ||
@@ -143,6 +161,21 @@ Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double s
 }
 
 }  // namespace
+
+std::optional<gp_Ax1> common_axis(const Skin& skin, const std::vector<int>& faces) {
+  const auto axis = turning_axis(skin.faces()[faces.front()].surface());
+  if (!axis) return std::nullopt;
+  const auto turns_around_it = [&](int face) {
+    const BRepAdaptor_Surface& surface = skin.faces()[face].surface();
+    if (surface.GetType() == GeomAbs_Plane)
+      return axis->Direction().IsParallel(surface.Plane().Axis().Direction(), same_direction);
+    if (surface.GetType() == GeomAbs_Sphere)
+      return gp_Lin(*axis).Distance(surface.Sphere().Location()) < same_length * skin.size();
+    const auto own = turning_axis(surface);
+    return own && same_axis(*axis, *own, skin.size());
+  };
+  return std::all_of(faces.begin(), faces.end(), turns_around_it) ? axis : std::nullopt;
+}
 
 bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
   return a.surface().GetType() == b.surface().GetType() && same_surfaces(a, b, size) && same_outside(a, b);

@@ -24,6 +24,7 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -46,6 +47,7 @@
 #include <cmath>
 #include <ctime>
 #include <gp_Circ.hxx>
+#include <gp_Elips.hxx>
 #include <map>
 #include <numeric>
 #include <set>
@@ -649,6 +651,76 @@ TEST(MidSurface, JoinsTheFreeFormWallsOfADuct) {
   expect_right(middle);
   EXPECT_EQ(middle.faces.size(), 8U);
   EXPECT_EQ(free_loops(middle.model), 2);
+}
+
+/// A tube from a square to a circle: four ruled walls whose corners fade away.
+TopoDS_Shape square_to_round(double thickness) {
+  const auto loft = [](double half, double radius) {
+    BRepBuilderAPI_MakeWire square, round;
+    for (int i = 0; i < 4; ++i) {
+      gp_Trsf turn;
+      turn.SetRotation(gp::OZ(), 0.5 * M_PI * i);
+      const auto at = [&](double x, double y, double z) { return gp_Pnt(x, y, z).Transformed(turn); };
+      square.Add(BRepBuilderAPI_MakeEdge(at(-half, -half, 0), at(half, -half, 0)).Edge());
+      const gp_Circ circle(gp_Ax2(gp_Pnt(0, 0, 75), gp::DZ()), radius);
+      const double c = radius * std::sqrt(0.5);
+      round.Add(BRepBuilderAPI_MakeEdge(circle, at(-c, -c, 75), at(c, -c, 75)).Edge());
+    }
+    BRepOffsetAPI_ThruSections result(Standard_True, Standard_True, 1e-6);
+    result.CheckCompatibility(Standard_False);
+    result.AddWire(square.Wire());
+    result.AddWire(round.Wire());
+    return result.Shape();
+  };
+  return BRepAlgoAPI_Cut(loft(40, 25), loft(40 - thickness, 25 - thickness)).Shape();
+}
+
+/// Up to the corner between two walls each middle goes on straight: no kink there asks for a finer fit.
+TEST(MidSurface, FitsFreeFormWallsUpToTheirCorners) {
+  const MidSurface middle = middle_of(square_to_round(1));
+  expect_right(middle);
+  ASSERT_EQ(middle.faces.size(), 4U);
+  EXPECT_EQ(free_loops(middle.model), 2);
+  for (const MiddleFace& face : middle.faces) EXPECT_LT(face.off, 1e-3 * face.thickness);
+}
+
+/// A head around z between two profiles from the plane z = 0 to the axis.
+TopoDS_Shape head(const TopoDS_Edge& outer, const TopoDS_Edge& inner) {
+  const auto point = [](const TopoDS_Edge& edge, bool last) {
+    const BRepAdaptor_Curve curve(edge);
+    return curve.Value(last ? curve.LastParameter() : curve.FirstParameter());
+  };
+  BRepBuilderAPI_MakeWire wire(outer);
+  wire.Add(BRepBuilderAPI_MakeEdge(point(outer, true), point(inner, true)).Edge());
+  wire.Add(inner);
+  wire.Add(BRepBuilderAPI_MakeEdge(point(inner, false), point(outer, false)).Edge());
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp::OZ()).Shape();
+}
+
+/// The middle of two profiles around an axis is a profile around it, up to the pole.
+TEST(MidSurface, ReachesTheAxisOfWallsOfRevolution) {
+  const auto ellipse = [](double radius, double height) {
+    const gp_Elips arc(gp_Ax2(gp::Origin(), gp_Dir(0, -1, 0), gp::DX()), radius, height);
+    return BRepBuilderAPI_MakeEdge(arc, 0, 0.5 * M_PI).Edge();
+  };
+  const auto free_form = [](double radius, double height) {
+    TColgp_Array1OfPnt poles(1, 4);
+    poles(1) = gp_Pnt(radius, 0, 0);
+    poles(2) = gp_Pnt(radius, 0, 0.7 * height);
+    poles(3) = gp_Pnt(0.6 * radius, 0, height);
+    poles(4) = gp_Pnt(0, 0, height);
+    return BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge();
+  };
+  for (const TopoDS_Shape& solid :
+       {head(ellipse(102, 52), ellipse(100, 50)), head(free_form(102, 52), free_form(100, 50))}) {
+    const MidSurface middle = middle_of(solid);
+    expect_right(middle);
+    ASSERT_EQ(middle.faces.size(), 1U);
+    EXPECT_EQ(free_loops(middle.model), 1);
+    EXPECT_LT(middle.faces[0].off, 1e-3 * middle.faces[0].thickness);
+    const TopoDS_Shape pole = BRepBuilderAPI_MakeVertex(gp_Pnt(0, 0, 51)).Vertex();
+    EXPECT_LT(BRepExtrema_DistShapeShape(pole, middle.model.shape().shape).Value(), 1e-5);
+  }
 }
 
 TEST(MidSurface, NamesTheFreeFormWallsThatItCannotJoin) {
