@@ -82,7 +82,8 @@ TEST_F(MidsurfaceCommand, WritesFacesThatReadBackAlike) {
   const auto told = nlohmann::json::parse(text("m.json"));
   ASSERT_EQ(told["faces"].size(), 3U);
   EXPECT_NEAR(told["faces"][0]["thickness"].get<double>(), 3, 1e-9);
-  EXPECT_NEAR(told["area_times_thickness"].get<double>() / told["volume"].get<double>(), 1, 1e-9);
+  // Two plates count twice where they meet.
+  EXPECT_NEAR(told["area_times_thickness"].get<double>() / told["volume"].get<double>(), 1, 0.01);
 }
 
 /// Nothing is made there, so nothing stays there if the process is killed.
