@@ -82,6 +82,10 @@ TEST_F(MidsurfaceCommand, WritesFacesThatReadBackAlike) {
   const auto told = nlohmann::json::parse(text("m.json"));
   ASSERT_EQ(told["faces"].size(), 3U);
   EXPECT_NEAR(told["faces"][0]["thickness"].get<double>(), 3, 1e-9);
+  double written = 0;
+  for (const auto& face : told["faces"])
+    written += face["area"].get<double>() * face["thickness"].get<double>();
+  EXPECT_NEAR(told["area_times_thickness"].get<double>(), written, 1e-6 * written);
   // Two plates count twice where they meet.
   EXPECT_NEAR(told["area_times_thickness"].get<double>() / told["volume"].get<double>(), 1, 0.01);
 }
