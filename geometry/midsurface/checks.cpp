@@ -424,4 +424,70 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
   return result;
 }
 
+namespace {
+
+/// Whether a direction leads from a middle surface into a room that walls close in ahead and at two sides.
+bool leads_inside(const Skin& skin, const gp_Pnt& from, const gp_Dir& ahead) {
+  const auto end = skin.first_hit(from, ahead);
+  const auto outward = end ? skin.faces()[end->face].outward(end->uv) : std::nullopt;
+  if (!outward || outward->Dot(ahead) >= 0) return false;
+  const gp_Pnt middle = from.Translated(0.5 * gp_Vec(from, end->point));
+  const gp_Dir across = gp_Ax2(middle, ahead).XDirection();
+  for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
+    const gp_Dir aside = across.Rotated(gp_Ax1(middle, ahead), angle * M_PI);
+    if (skin.first_hit(middle, aside) && skin.first_hit(middle, aside.Reversed())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<JoinedFace>& faces) {
+  TopTools_IndexedMapOfShape edges;
+  std::vector<std::vector<std::size_t>> around;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (TopExp_Explorer it(faces[i].face, TopAbs_EDGE); it.More(); it.Next()) {
+      const int edge = edges.Add(it.Current());
+      around.resize(edges.Extent());
+      around[edge - 1].push_back(i);
+    }
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const JoinedFace& own = faces[i];
+    std::set<std::size_t> standing;  // where the wall goes on beyond them
+    bool enclosed = true;
+    for (TopExp_Explorer it(own.face, TopAbs_EDGE); it.More(); it.Next()) {
+      const auto& meeting = around[edges.FindIndex(it.Current()) - 1];
+      enclosed = enclosed && meeting.size() == 3;
+      const bool goes_on = std::any_of(meeting.begin(), meeting.end(), [&](std::size_t other) {
+        return other != i && faces[other].wall == own.wall;
+      });
+      for (const std::size_t other : meeting) {
+        if (goes_on && faces[other].wall != own.wall) standing.insert(other);
+      }
+    }
+    const auto samples = sample_face(own.face, 16);
+    if (!enclosed || standing.empty() || samples.empty()) continue;
+    const FaceSample& sample = samples[samples.size() / 2];
+    gp_Pnt at;
+    gp_Vec du, dv;
+    BRepAdaptor_Surface(own.face, Standard_False).D1(sample.uv.X(), sample.uv.Y(), at, du, dv);
+    const gp_Vec normal = du.Crossed(dv);
+    if (normal.Magnitude() < gp::Resolution()) continue;
+    std::array<bool, 2> on_side{};  // behind, ahead
+    for (const std::size_t other : standing) {
+      const auto points = sample_face(faces[other].face, 16);
+      if (!points.empty())
+        on_side[gp_Vec(at, points[points.size() / 2].point).Dot(normal) > 0 ? 1 : 0] = true;
+    }
+    if (on_side[0] == on_side[1]) continue;
+    const gp_Dir ahead(on_side[0] ? normal : normal.Reversed());
+    constexpr double out = 0.6;  // of the wall, over its thickness
+    if (leads_inside(skin, at.Translated(out * own.coverage.mean * gp_Vec(ahead)), ahead))
+      result.push_back(i);
+  }
+  return result;
+}
+
 }  // namespace quadrille

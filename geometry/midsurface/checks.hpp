@@ -43,4 +43,9 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
                                                   const std::vector<JoinedFace>& faces,
                                                   const ExecutionContext& context);
 
+/// Indices of the faces that a hollow section standing on another one closes off: walls stand all around
+/// them, on one side, and on the other there is the inside of a section. Between them a solid has the depth
+/// of the joint, a shell has none. The faces must be triangulated.
+std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<JoinedFace>& faces);
+
 }  // namespace quadrille

@@ -684,6 +684,38 @@ TEST(MidSurface, FitsFreeFormWallsUpToTheirCorners) {
   for (const MiddleFace& face : middle.faces) EXPECT_LT(face.off, 1e-3 * face.thickness);
 }
 
+/// A square tube along z, closed at the bottom by what it stands on.
+TopoDS_Shape standing_on(const TopoDS_Shape& below, double top) {
+  const TopoDS_Shape outside = BRepPrimAPI_MakeBox(gp_Pnt(80, -20, top), gp_Pnt(120, 20, top + 100)).Shape();
+  const TopoDS_Shape inside = BRepPrimAPI_MakeBox(gp_Pnt(83, -17, top), gp_Pnt(117, 17, top + 100)).Shape();
+  return BRepAlgoAPI_Fuse(below, BRepAlgoAPI_Cut(outside, inside).Shape()).Shape();
+}
+
+/// A shell has no depth where a tube stands on another one; on a plate the solid has none either.
+TEST(MidSurface, TellsWhereHollowSectionsMeet) {
+  const auto told = [](const MidSurface& middle) {
+    std::vector<std::string> result;
+    for (const std::string& warning : middle.warnings)
+      if (warning.find("hollow sections") != std::string::npos) result.push_back(warning);
+    return result;
+  };
+  const TopoDS_Shape tube =
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(0, -30, -60), gp_Pnt(200, 30, 0)).Shape(),
+                      BRepPrimAPI_MakeBox(gp_Pnt(0, -26, -56), gp_Pnt(200, 26, -4)).Shape())
+          .Shape();
+  const MidSurface tee = middle_of(standing_on(tube, 0));
+  const auto warnings = told(tee);
+  ASSERT_EQ(warnings.size(), 1U);
+  const auto closed_off = std::find_if(tee.faces.begin(), tee.faces.end(), [](const MiddleFace& face) {
+    return std::abs(face.area - 37 * 37) < 1e-3;
+  });
+  ASSERT_NE(closed_off, tee.faces.end());
+  const std::string name = fmt::format("Face{}:", closed_off - tee.faces.begin() + 1);
+  EXPECT_NE(warnings[0].find(name), std::string::npos) << warnings[0];
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(gp_Pnt(0, -60, -4), gp_Pnt(200, 60, 0)).Shape();
+  EXPECT_TRUE(told(middle_of(standing_on(plate, 0))).empty());
+}
+
 /// A head around z between two profiles from the plane z = 0 to the axis.
 TopoDS_Shape head(const TopoDS_Edge& outer, const TopoDS_Edge& inner) {
   const auto point = [](const TopoDS_Edge& edge, bool last) {
