@@ -421,8 +421,9 @@ void bind_midsurface(py::module_& module) {
       .def_readonly("parts", &MidSurface::parts, "Connected parts.")
       .def_readonly("free_edges", &MidSurface::free_edges, "Edges of one face only.")
       .def_readonly("unpaired", &MidSurface::unpaired, "Solid faces that are neither side nor rim of a wall.")
-      .def_readonly("counted_twice", &MidSurface::counted_twice,
-                    "Volume that shell_volume counts twice where walls meet, in fillets and at steps, in mm^3.")
+      .def_readonly(
+          "counted_twice", &MidSurface::counted_twice,
+          "Volume that shell_volume counts twice where walls meet, in fillets and at steps, in mm^3.")
       .def_readonly("warnings", &MidSurface::warnings, "Inaccuracies that are not errors.")
       .def_readonly("problems", &MidSurface::problems, "With partial: what would have been an error.")
       .def("write", &write_midsurface, py::arg("path"), py::call_guard<py::gil_scoped_release>(),

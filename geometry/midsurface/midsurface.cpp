@@ -416,6 +416,7 @@ void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& n
   }
   std::sort(order.begin(), order.end());
   std::vector<int> faces;
+  faces.reserve(order.size());
   for (const auto& [volume, number] : order) faces.push_back(number);
   result.warnings.push_back(twice_sentence(twice, result.volume, middle.name, faces));
 }
