@@ -71,26 +71,6 @@ class CoplanarFaces {
       if (used[face]) planes_[face] = plane_of(face);
   }
 
-  /// The faces to be joined with a face, which comes first. \param taken 1 = not again
-  /// \param bulge how far they lie off one plane
-  std::vector<FaceId> around(FaceId first, const FaceFlags& taken, double& bulge) const {
-    bulge = 0;
-    if (!planes_[first]) return {first};
-    Group group = grown(first, taken, taken.size());
-    if (group.bends) {  // facets: groups of like widths, with none left over
-      const std::size_t left = count_facets(first, taken), size = group.members.size();
-      const std::size_t groups = (left + size - 1) / size;
-      group = grown(first, taken, (left + groups - 1) / groups);
-      bulge = group.bulge;
-      return group.members;
-    }
-    // A few faces in a plane are a partition that someone drew; many small ones come from a program.
-    constexpr std::size_t least = 6;
-    if (group.members.size() < least) group.members = {first};
-    return group.members;
-  }
-
- private:
   /// Faces that are joined.
   struct Group {
     std::vector<FaceId> members;
@@ -101,6 +81,24 @@ class CoplanarFaces {
     std::set<VertexId> touching;  // where the outline touches itself
   };
 
+  /// The faces to be joined with a face, which comes first. \param taken 1 = not again
+  Group around(FaceId first, const FaceFlags& taken) const {
+    if (!planes_[first]) return {{first}, {first}, false, 0, {}, {}};
+    Group group = grown(first, taken, taken.size());
+    const std::size_t size = group.members.size();
+    if (group.bends) {  // facets: groups of like widths, with none left over
+      // Of more than size^2 facets, groups of like widths have that size.
+      const std::size_t left = count_facets(first, taken, size * size + 1), groups = (left + size - 1) / size;
+      const std::size_t each = (left + groups - 1) / groups;
+      return each < size ? grown(first, taken, each) : group;
+    }
+    // A few faces in a plane are a partition that someone drew; many small ones come from a program.
+    constexpr std::size_t least = 6;
+    if (size < least) group.members = {first};
+    return group;
+  }
+
+ private:
   /// \param most number of facets, if the group bends
   Group grown(FaceId first, const FaceFlags& taken, std::size_t most) const {
     Group group{{first}, {first}, false, 0, *planes_[first], {}};
@@ -116,14 +114,14 @@ class CoplanarFaces {
       for_each_edge(member, [&](EdgeId edge) {
         for (const FaceId next : shape_.edges[edge].faces) {
           if (taken[next] || group.inside.contains(next) || !planes_[next] || stays(edge)) continue;
-          if (!does_harm(edge, group, *planes_[next])) continue;
+          if (!does_harm(edge, group, *planes_[next]) || !lie_beside_each_other(edge, member, next)) continue;
           const double off = distance_from_plane(group.whole, group.members.front(), next);
           const bool bends = off > 0 && are_facets(member, next);
           if (off > (bends ? facets_off_ : 0)) continue;
           if ((bends || group.bends) && (group.members.size() >= most ||
                                          group.whole.width() + planes_[next]->width() > limits_.largest))
             continue;
-          if (!lie_beside_each_other(edge, member, next) || has_edge_that_stays(next, group.inside)) continue;
+          if (has_edge_that_stays(next, group.inside)) continue;
           group.whole.add(*planes_[next], shared_length(next, group.inside));
           group.bends |= bends;
           group.bulge = std::max(group.bulge, off);
@@ -134,18 +132,16 @@ class CoplanarFaces {
     }
   }
 
-  /// The number of facets that are connected to one, with it.
-  std::size_t count_facets(FaceId first, const FaceFlags& taken) const {
+  /// The number of facets that are connected to one, with it, counted up to `most`.
+  std::size_t count_facets(FaceId first, const FaceFlags& taken, std::size_t most) const {
     std::vector<FaceId> found{first};
-    FaceFlags seen = taken;
-    seen[first] = 1;
-    for (std::size_t i = 0; i < found.size(); ++i) {
+    std::set<FaceId> seen{first};
+    for (std::size_t i = 0; i < found.size() && found.size() < most; ++i) {
       const FaceId member = found[i];
       for_each_edge(member, [&](EdgeId edge) {
         for (const FaceId next : shape_.edges[edge].faces) {
-          if (seen[next] || !planes_[next] || stays(edge) || !are_facets(member, next)) continue;
-          seen[next] = 1;
-          found.push_back(next);
+          if (taken[next] || !planes_[next] || stays(edge) || !are_facets(member, next)) continue;
+          if (seen.insert(next).second) found.push_back(next);
         }
       });
     }
@@ -264,9 +260,8 @@ class CoplanarFaces {
   /// Whether two faces are facets of a surface that bends little from one to the next, each so narrow that
   /// several are as wide as an element.
   bool are_facets(FaceId a, FaceId b) const {
-    static const double least_cosine = std::cos(std::numbers::pi / 12);
     return std::max(planes_[a]->width(), planes_[b]->width()) < 0.5 * limits_.largest &&
-           planes_[a]->normal.dot(planes_[b]->normal) > least_cosine;
+           planes_[a]->normal.dot(planes_[b]->normal) > facet_cosine;
   }
 
   /// How far the edges of a face lie off a plane; 0 within the tolerances of the face and of that of the
@@ -420,16 +415,16 @@ void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const Si
   FaceFlags taken(before.faces.size()), of_facets(before.faces.size());
   for (const FaceId face : taken.ids()) {
     if (taken[face]) continue;
-    double bulge = 0;
-    const FaceJoiner joiner(before, faces.around(face, taken, bulge));
+    const auto group = faces.around(face, taken);
+    const FaceJoiner joiner(before, group.members);
     if (joiner.members().size() < 2) continue;
     for (const FaceId member : joiner.members()) taken[member] = 1;
     std::optional<CadFace> whole = joiner.face();
     if (!whole) continue;
     if (!after) after = std::make_shared<CadShape>(before);
     replace(*after, joiner, std::move(*whole), model);
-    of_facets[face] = bulge > 0;
-    model.bulge[face] = bulge;
+    of_facets[face] = group.bulge > 0;
+    model.bulge[face] = group.bulge;
   }
   if (!after) return;
   join_edges_of_facets(*after, of_facets, sizing, model);

@@ -500,10 +500,11 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
   free_sides_beside_chains(shape, used, plan.rows, found);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);
+  StripRefiner strips(shape, field.aspect(), field.size_min());
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
-    const bool refined = refine_along_strips(shape, sides, division.counts, division.spacing, field.aspect(),
-                                             field.size_min(), demand.tables, demand.targets);
+    const bool refined =
+        strips.refine(sides, division.counts, division.spacing, demand.tables, demand.targets);
     if (!(round == 0 && fit_holes_to_grids(shape, sides, division.counts, demand.tables, demand.targets)) &&
         !refined)
       break;

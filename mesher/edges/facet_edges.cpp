@@ -15,8 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
@@ -45,19 +43,25 @@ struct Knots {
 class FacetEdges {
  public:
   FacetEdges(CadShape& shape, const FaceFlags& joined, const SizingOptions& sizing, SimplifiedModel& model)
-      : shape_(shape), joined_(joined), sizing_(sizing), model_(model), ends_(shape.vertices.size()) {
+      : shape_(shape),
+        joined_(joined),
+        sizing_(sizing),
+        model_(model),
+        ends_(shape.vertices.size()),
+        inside_(shape.vertices.size()) {
     for (const EdgeId id : shape_.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
       if (edge.faces.empty()) continue;
       for (const VertexId end : {edge.first_vertex, edge.last_vertex})
         if (end.exists()) ends_[end].push_back(id);
     }
+    for (const VertexId vertex : ends_.ids()) inside_[vertex] = is_inside_chain(vertex) ? 1 : 0;
   }
 
   void run() {
     for (const VertexId vertex : ends_.ids()) {
-      if (is_inside_chain(vertex)) continue;
-      for (const EdgeId first : std::vector(ends_[vertex])) {
+      if (inside_[vertex]) continue;
+      for (const EdgeId first : ends_[vertex]) {
         const std::vector<EdgeId> chain = chain_from(vertex, first);
         // Each is found from both of its ends.
         if (chain.size() > 1 && chain.front() < chain.back()) replace(vertex, chain);
@@ -86,15 +90,14 @@ class FacetEdges {
     if (ends.size() != 2 || ends[0] == ends[1] || sizing_.names_vertex(vertex.number())) return false;
     if (shape_.edges[ends[0]].faces != shape_.edges[ends[1]].faces) return false;
     if (!may_be_joined(ends[0]) || !may_be_joined(ends[1])) return false;
-    static const double least_cosine = std::cos(std::numbers::pi / 12);
     const Vector3 in = shape_.vertices[vertex] - shape_.vertices[other_end(ends[0], vertex)];
     const Vector3 out = shape_.vertices[other_end(ends[1], vertex)] - shape_.vertices[vertex];
-    return in.dot(out) > least_cosine * in.norm() * out.norm();
+    return in.dot(out) > facet_cosine * in.norm() * out.norm();
   }
 
   std::vector<EdgeId> chain_from(VertexId vertex, EdgeId first) const {
     std::vector<EdgeId> chain{first};
-    for (VertexId at = other_end(first, vertex); at.exists() && at != vertex && is_inside_chain(at);) {
+    for (VertexId at = other_end(first, vertex); at.exists() && at != vertex && inside_[at];) {
       chain.push_back(ends_[at][0] == chain.back() ? ends_[at][1] : ends_[at][0]);
       at = other_end(chain.back(), at);
     }
@@ -193,6 +196,7 @@ class FacetEdges {
   const SizingOptions& sizing_;
   SimplifiedModel& model_;
   IdVector<VertexId, std::vector<EdgeId>> ends_;  // edges that begin or end there
+  VertexFlags inside_;                            // 1 = inside a chain
 };
 
 }  // namespace

@@ -7,6 +7,10 @@
 
 namespace quadrille {
 
+/// The cosine of 15 degrees: facets of a curved surface turn by less from one to the next, and so do their
+/// edges.
+constexpr double facet_cosine = 0.9659258262890683;
+
 /// Makes one edge of each chain of straight edges between the same two plane faces, one of them joined from
 /// facets, that turns by little at its vertices, which belong to no other edge: a polyline through them. It
 /// has the number of its first edge; the others belong to no face and are listed as edges inside. Edges and

@@ -31,20 +31,28 @@ struct RowWidths {
   double least() const { return std::clamp(narrowest, 0.5 * mean(), mean()); }
 };
 
-/// How much narrower a face is between its ends than at them: the smallest and the mean ratio, at most 1.
-struct Waist {
-  double narrowest = 1, mean = 1;
-};
+double shortest_segment(double length, const std::vector<double>& shares, const CountTable& table,
+                        int count) {
+  double shortest = std::numeric_limits<double>::infinity(), before = 0;
+  for (int k = 1; k <= count; ++k) {
+    const double at = shares.empty() ? table.length_at(table.total() * k / count) : length * shares[k];
+    shortest = std::min(shortest, at - before);
+    before = at;
+  }
+  return shortest;
+}
+
+}  // namespace
 
 /// \param along the sides from end to end, cut into pairs
-Waist waist_between(const CadShape& shape, std::span<const FacingPair> along) {
+StripRefiner::Waist StripRefiner::waist_between(std::span<const FacingPair> along) const {
   constexpr int pieces_of_side = 16;
   std::array<std::vector<Vector3>, 2> sides;
   for (const FacingPair& pair : along)
     for (const FaceSide* side : {&pair.first, &pair.second})
       for (const SideEdge& edge : *side) {
         const int pieces = std::max(1, pieces_of_side / static_cast<int>(along.size() * side->size()));
-        std::vector<Vector3> points = points_along(shape.edges[edge.edge], pieces);
+        std::vector<Vector3> points = points_along(shape_.edges[edge.edge], pieces);
         if (!edge.forward) std::ranges::reverse(points);
         std::vector<Vector3>& all = sides[side == &pair.first ? 0 : 1];
         all.insert(all.end(), points.begin(), points.end());
@@ -67,30 +75,16 @@ Waist waist_between(const CadShape& shape, std::span<const FacingPair> along) {
   return result;
 }
 
-double shortest_segment(double length, const std::vector<double>& shares, const CountTable& table,
-                        int count) {
-  double shortest = std::numeric_limits<double>::infinity(), before = 0;
-  for (int k = 1; k <= count; ++k) {
-    const double at = shares.empty() ? table.length_at(table.total() * k / count) : length * shares[k];
-    shortest = std::min(shortest, at - before);
-    before = at;
-  }
-  return shortest;
-}
-
-}  // namespace
-
-bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
-                         const PlannedSpacing& spacing, double aspect, double shortest,
-                         IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
+bool StripRefiner::refine(const FaceOutlines& sides, const EdgeCounts& chosen, const PlannedSpacing& spacing,
+                          IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
   // (chords) wanted and least segments for each whole edge
-  IdVector<EdgeId, double> wanted(shape.edges.size()), least(shape.edges.size());
+  IdVector<EdgeId, double> wanted(shape_.edges.size()), least(shape_.edges.size());
   const auto widths = [&](std::span<const FacingPair> pairs) {
     RowWidths result;
     for (const FacingPair& pair : pairs) {
       for (const FaceSide* side : {&pair.first, &pair.second})
         for (const SideEdge& edge : *side) {
-          const double length = shape.edges[edge.edge].length;
+          const double length = shape_.edges[edge.edge].length;
           result.length += 0.5 * length;
           const EdgeId chord = chosen.chords.of(edge.edge);
           result.divided |= spacing.divided[chord] || spacing.kept[chord];
@@ -102,24 +96,26 @@ bool refine_along_strips(const CadShape& shape, const FaceOutlines& sides, const
     }
     return result;
   };
-  for (const FaceSides& face : sides) {
+  for (const FaceId id : sides.ids()) {
+    const FaceSides& face = sides[id];
     if (!face.has_four_sides()) continue;
     const std::span all(face.facing);
     const std::array ways{all.first(face.across), all.subspan(face.across)};
     for (const int k : {0, 1}) {
       RowWidths across = widths(ways[1 - k]);
       if (across.rows == 0 || across.divided) continue;
-      const Waist waist = waist_between(shape, ways[k]);
-      across.narrowest *= waist.narrowest;
-      across.length *= waist.mean;
-      if (in_narrowest * aspect * across.mean() < shortest) continue;  // out of reach
-      const double at_most = std::max(in_narrowest * aspect * across.least(), shortest);
-      const double longest = std::max(aspect * across.mean(), shortest);
+      auto& waist = waists_[id][k];
+      if (!waist) waist = waist_between(ways[k]);
+      across.narrowest *= waist->narrowest;
+      across.length *= waist->mean;
+      if (in_narrowest * aspect_ * across.mean() < shortest_) continue;  // out of reach
+      const double at_most = std::max(in_narrowest * aspect_ * across.least(), shortest_);
+      const double longest = std::max(aspect_ * across.mean(), shortest_);
       for (const FacingPair& pair : ways[k])
         for (const FaceSide* side : {&pair.first, &pair.second})
           for (const SideEdge& edge : *side) {
             const EdgeId chord = chosen.chords.of(edge.edge);
-            const double length = shape.edges[edge.edge].length;
+            const double length = shape_.edges[edge.edge].length;
             wanted[chord] = std::max(wanted[chord], length / longest);
             least[chord] = std::max(least[chord], std::ceil(length / at_most));
           }
