@@ -22,6 +22,7 @@
 #include <map>
 #include <set>
 
+#include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
@@ -443,28 +444,24 @@ bool leads_inside(const Skin& skin, const gp_Pnt& from, const gp_Dir& ahead) {
 }  // namespace
 
 std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<JoinedFace>& faces) {
-  TopTools_IndexedMapOfShape edges;
-  std::vector<std::vector<std::size_t>> around;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    for (TopExp_Explorer it(faces[i].face, TopAbs_EDGE); it.More(); it.Next()) {
-      const int edge = edges.Add(it.Current());
-      around.resize(edges.Extent());
-      around[edge - 1].push_back(i);
-    }
-  }
+  const EdgeUses uses(faces);
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const JoinedFace& own = faces[i];
     std::set<std::size_t> standing;  // where the wall goes on beyond them
     bool enclosed = true;
     for (TopExp_Explorer it(own.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const auto& meeting = around[edges.FindIndex(it.Current()) - 1];
-      enclosed = enclosed && meeting.size() == 3;
-      const bool goes_on = std::any_of(meeting.begin(), meeting.end(), [&](std::size_t other) {
-        return other != i && faces[other].wall == own.wall;
+      const int edge = uses.find(it.Current());
+      if (edge < 0 || uses.uses(edge).size() != 3) {
+        enclosed = false;
+        break;
+      }
+      const auto& meeting = uses.uses(edge);
+      const bool goes_on = std::any_of(meeting.begin(), meeting.end(), [&](const EdgeUses::Use& use) {
+        return use.face != static_cast<int>(i) && faces[use.face].wall == own.wall;
       });
-      for (const std::size_t other : meeting) {
-        if (goes_on && faces[other].wall != own.wall) standing.insert(other);
+      for (const EdgeUses::Use& use : meeting) {
+        if (goes_on && faces[use.face].wall != own.wall) standing.insert(static_cast<std::size_t>(use.face));
       }
     }
     const auto samples = sample_face(own.face, 16);

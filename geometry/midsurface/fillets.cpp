@@ -19,6 +19,7 @@
 #include <set>
 
 #include "geometry/midsurface/checks.hpp"
+#include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/widths.hpp"
@@ -136,20 +137,13 @@ std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBord
 
 /// (pairs of walls) that share an edge.
 std::set<std::pair<int, int>> neighbors_of(const std::vector<JoinedFace>& faces) {
-  TopTools_IndexedMapOfShape edges;
-  std::vector<std::set<int>> walls;
-  for (const JoinedFace& face : faces) {
-    for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const int edge = edges.Add(it.Current());
-      walls.resize(edges.Extent());
-      walls[edge - 1].insert(face.wall);
-    }
-  }
+  const EdgeUses uses(faces);
   std::set<std::pair<int, int>> result;
-  for (const std::set<int>& around : walls) {
-    for (const int from : around) {
-      for (const int to : around) {
-        if (from != to) result.emplace(from, to);
+  for (int edge = 0; edge < uses.count(); ++edge) {
+    for (const EdgeUses::Use& from : uses.uses(edge)) {
+      for (const EdgeUses::Use& to : uses.uses(edge)) {
+        const int wall = faces[from.face].wall, other = faces[to.face].wall;
+        if (wall != other) result.emplace(wall, other);
       }
     }
   }

@@ -36,6 +36,7 @@
 #include <utility>
 
 #include "geometry/midsurface/fusing.hpp"
+#include "geometry/midsurface/middle_geometry.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
@@ -155,24 +156,6 @@ bool runs_on_along_normals(const std::vector<Beside>& around) {
     if (std::abs(side.outward.Dot(side.own)) < 1e-4) runs += side.length;
   }
   return runs >= 0.9 * all;
-}
-
-/// The local axes of a plane, cylinder, cone, sphere or torus.
-std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
-  switch (surface.GetType()) {
-    case GeomAbs_Plane:
-      return surface.Plane().Position();
-    case GeomAbs_Cylinder:
-      return surface.Cylinder().Position();
-    case GeomAbs_Cone:
-      return surface.Cone().Position();
-    case GeomAbs_Sphere:
-      return surface.Sphere().Position();
-    case GeomAbs_Torus:
-      return surface.Torus().Position();
-    default:
-      return std::nullopt;
-  }
 }
 
 /// Makes the common part of two shapes.

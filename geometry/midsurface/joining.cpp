@@ -5,7 +5,6 @@
 #include <BOPAlgo_Builder.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
@@ -22,40 +21,13 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
 namespace {
-
-/// The faces on each edge.
-class EdgeUses {
- public:
-  explicit EdgeUses(const std::vector<JoinedFace>& faces) {
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      for (TopExp_Explorer it(faces[i].face, TopAbs_EDGE); it.More(); it.Next()) {
-        if (BRep_Tool::Degenerated(TopoDS::Edge(it.Current()))) continue;
-        const int edge = edges_.Add(it.Current());
-        uses_.resize(edges_.Extent());
-        uses_[edge - 1].push_back({static_cast<int>(i), it.Current().Orientation()});
-      }
-    }
-  }
-
-  struct Use {
-    int face = 0;
-    TopAbs_Orientation orientation = TopAbs_FORWARD;
-  };
-  int count() const { return edges_.Extent(); }
-  const TopoDS_Shape& edge(int index) const { return edges_(index + 1); }
-  int find(const TopoDS_Shape& edge) const { return edges_.FindIndex(edge) - 1; }  ///< -1 = none
-  const std::vector<Use>& uses(int index) const { return uses_[index]; }
-
- private:
-  TopTools_IndexedMapOfShape edges_;
-  std::vector<std::vector<Use>> uses_;
-};
 
 TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
   TopoDS_Compound result;

@@ -136,20 +136,9 @@ std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size
 
 /// The axis around which a surface's u turns.
 std::optional<gp_Ax1> turning_axis(const BRepAdaptor_Surface& surface) {
-  switch (surface.GetType()) {
-    case GeomAbs_Cylinder:
-      return surface.Cylinder().Axis();
-    case GeomAbs_Cone:
-      return surface.Cone().Axis();
-    case GeomAbs_Sphere:
-      return surface.Sphere().Position().Axis();
-    case GeomAbs_Torus:
-      return surface.Torus().Axis();
-    case GeomAbs_SurfaceOfRevolution:
-      return surface.AxeOfRevolution();
-    default:
-      return std::nullopt;
-  }
+  if (surface.GetType() == GeomAbs_SurfaceOfRevolution) return surface.AxeOfRevolution();
+  const auto frame = surface.GetType() == GeomAbs_Plane ? std::nullopt : frame_of(surface);
+  return frame ? std::optional(frame->Axis()) : std::nullopt;
 }
 
 Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double size) {
@@ -161,6 +150,23 @@ Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double s
 }
 
 }  // namespace
+
+std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
+  switch (surface.GetType()) {
+    case GeomAbs_Plane:
+      return surface.Plane().Position();
+    case GeomAbs_Cylinder:
+      return surface.Cylinder().Position();
+    case GeomAbs_Cone:
+      return surface.Cone().Position();
+    case GeomAbs_Sphere:
+      return surface.Sphere().Position();
+    case GeomAbs_Torus:
+      return surface.Torus().Position();
+    default:
+      return std::nullopt;
+  }
+}
 
 std::optional<gp_Ax1> common_axis(const Skin& skin, const std::vector<int>& faces) {
   const auto axis = turning_axis(skin.faces()[faces.front()].surface());

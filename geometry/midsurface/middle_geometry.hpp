@@ -1,8 +1,10 @@
 #pragma once
 /// Surfaces in the middle between two others. Internal.
 
+#include <BRepAdaptor_Surface.hxx>
 #include <Geom_Surface.hxx>
 #include <gp_Ax1.hxx>
+#include <gp_Ax3.hxx>
 #include <optional>
 #include <vector>
 
@@ -21,6 +23,9 @@ double distance_from_carrier(const SkinFace& face, const gp_Pnt& point);
 /// The surface of the points that are equally far from both faces' surfaces. Exact for two planes, coaxial
 /// cylinders, parallel coaxial cones, concentric spheres, and tori about one circle. Null for other pairs.
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size);
+
+/// The local axes of a plane, cylinder, cone, sphere or torus; none of other surfaces.
+std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface);
 
 /// The axis around which u of the first face turns, if all faces lie on surfaces of revolution around it.
 std::optional<gp_Ax1> common_axis(const Skin& skin, const std::vector<int>& faces);
