@@ -23,9 +23,10 @@ namespace {
 
 /// A move that leaves every element above this scaled Jacobian is accepted even if the least one falls.
 constexpr double good_jacobian = 0.6;
-constexpr double opposite_weight =
-    0.5;                           ///< weight of the corner opposite in a quad, beside 1 for the neighbors
-constexpr double overshoot = 1.3;  ///< factor on a sweep's moves
+/// Weight of the corner opposite in a quad, beside 1 for the neighbors.
+constexpr double opposite_weight = 0.5;
+/// Factor on a sweep's moves.
+constexpr double overshoot = 1.3;
 /// Moves below this fraction of the mean side around the node are not worth evaluating the surface for.
 constexpr double still_share = 4e-3;
 /// A place on the surface this near to the judged place (as a share of the mean side) is not judged again.
