@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures which lines the tests reach: builds into build-coverage, runs the tests but those in a window, and prints the share
-# of lines by folder, with the sources that are reached least. Arguments go to ctest.
+# of lines by folder, with the sources that are reached least. Arguments go to ctest. The shares are lower bounds: where programs
+# share a source, libgcov drops its counts when it cannot merge theirs.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 command -v gcovr >/dev/null || { echo "error: gcovr is missing: apt-get install gcovr" >&2; exit 1; }

@@ -421,6 +421,9 @@ double SizingField::size_max() const {
 double SizingField::size_min() const {
   return impl_->size_min;
 }
+bool SizingField::has_size_min() const {
+  return impl_->options.size_min > 0;
+}
 
 std::vector<SizingField::Level> SizingField::levels() const {
   std::vector<Level> levels;

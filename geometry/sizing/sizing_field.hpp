@@ -90,9 +90,10 @@ class SizingField {
   /// version. Where faces have their own cascades, the smallest value of all is written.
   void write(const std::filesystem::path& path) const;
 
-  double aspect() const;    ///< SizingOptions::aspect
-  double size_max() const;  ///< millimeters
-  double size_min() const;  ///< millimeters
+  double aspect() const;      ///< SizingOptions::aspect
+  double size_max() const;    ///< millimeters
+  double size_min() const;    ///< millimeters
+  bool has_size_min() const;  ///< whether users gave SizingOptions::size_min
 
   /// One level of voxels, summed over all faces.
   struct Level {

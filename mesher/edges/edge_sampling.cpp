@@ -178,9 +178,12 @@ class TargetFinder {
     const bool is_curve = turning > straight && (stride_ * wanted > 1 || turning > quarter_turn);
     of_grids = is_curve || needs_least ? stride_ * least : 1;
     if (turning <= least_arc) return;
-    // On an arc, the number that the sizes give is a minimum: the stresses there depend on it.
+    // On an arc, the number that the sizes give is a minimum: the stresses there depend on it. Only a least
+    // size that users gave goes before it.
     constexpr double nearly = 0.25;
-    least = std::max(least, to_int(std::min(std::ceil(wanted - nearly), most_at_least_size(i, stride_))));
+    double most = std::ceil(wanted - nearly);
+    if (field_.has_size_min()) most = std::min(most, most_at_least_size(i, stride_));
+    least = std::max(least, to_int(most));
     of_grids = std::max(of_grids, to_int(std::ceil(stride_ * wanted - nearly)));
   }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
@@ -98,6 +99,43 @@ TEST(StripCounts, RowsOfABendAreNotBelowTheLeastSize) {
       for (int k = 0; k < 4; ++k)
         EXPECT_GE((mesh.points[quad[(k + 1) % 4]] - mesh.points[quad[k]]).norm(), 0.95 * 2) << radius;
   }
+}
+
+/// One half of a flat bar that gets narrower in a quarter arc.
+CadModel bar_with_shoulder(double radius) {
+  const double x = 60, y = 20, c = radius * (1 - std::sqrt(0.5));
+  BRepBuilderAPI_MakeWire outline;
+  const auto line = [&](const gp_Pnt& from, const gp_Pnt& to) {
+    outline.Add(BRepBuilderAPI_MakeEdge(from, to));
+  };
+  outline.Add(BRepBuilderAPI_MakeEdge(
+      GC_MakeArcOfCircle(gp_Pnt(x, y + radius, 0), gp_Pnt(x + c, y + c, 0), gp_Pnt(x + radius, y, 0))
+          .Value()));
+  line({x + radius, y, 0}, {2 * x, y, 0});
+  line({2 * x, y, 0}, {2 * x, 0, 0});
+  line({2 * x, 0, 0}, {0, 0, 0});
+  line({0, 0, 0}, {0, y + 5, 0});
+  line({0, y + 5, 0}, {x, y + 5, 0});
+  line({x, y + 5, 0}, {x, y + radius, 0});
+  return CadModel(std::make_shared<CadShape>(BRepBuilderAPI_MakeFace(outline.Wire()).Shape(), "bar"));
+}
+
+/// The stress on an arc depends on its segments: a quarter turn with room for three of the default least size
+/// gets four of them, but two if users give that size.
+TEST(StripCounts, OnlyALeastSizeOfUsersTakesSegmentsFromArcs) {
+  MeshOptions options;
+  options.sizing.size = 8;
+  const auto segments_on_arc = [&] {
+    ExecutionContext context(1);
+    const ShellMesh mesh = quadrille::mesh(bar_with_shoulder(2), options, context);
+    return std::count_if(mesh.segments.begin(), mesh.segments.end(), [&](const ShellMesh::Segment& segment) {
+      const Vector3 middle = 0.5 * (mesh.points[segment.nodes[0]] + mesh.points[segment.nodes[1]]);
+      return middle.x() > 60 && middle.x() < 62 && middle.y() > 20 && middle.y() < 22;
+    });
+  };
+  EXPECT_EQ(segments_on_arc(), 4);
+  options.sizing.size_min = 1;
+  EXPECT_EQ(segments_on_arc(), 2);
 }
 
 /// However narrow a strip is, as long as it is not below the reach.
