@@ -520,6 +520,16 @@ class AddonTest(unittest.TestCase):
                        Part.makeCylinder(1, 1)):
             self.assertFalse(shapes.same_fingerprint(shapes.fingerprint(one), shapes.fingerprint(change)))
 
+    def test_a_face_that_changes_inside_its_edges_is_seen(self):
+        def sheet(height):
+            surface = Part.BSplineSurface()
+            surface.interpolate([[Vector(x, y, height if x == y == 1 else 0) for y in range(3)] for x in range(3)])
+            return surface.toShape()
+
+        flat, higher = (shapes.fingerprint(sheet(height)) for height in (0.5, 0.500001))
+        self.assertEqual(flat, shapes.fingerprint(sheet(0.5)))
+        self.assertFalse(shapes.same_fingerprint(flat, higher))
+
     # Export, quality, estimate
 
     def test_export(self):

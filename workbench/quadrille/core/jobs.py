@@ -38,7 +38,7 @@ class FemJob:
     result() returns the mesh."""
 
     def __init__(self, command: str, folder, output: str, job: MeshJob) -> None:
-        """folder: the job's scratch folder, removed when the job has ended; output: the .med file in it."""
+        """folder: the job's scratch folder, removed when the job has ended; output: the .unv file in it."""
         self._command, self._folder, self._output, self._job = command, folder, output, job
         self._report: Optional[Dict] = None
         self._result: Optional[Tuple["Fem.FemMesh", Dict]] = None
@@ -126,7 +126,7 @@ class ShapeJob(FemJob):
             raise Error("the shape has no faces to mesh", "usage")
         command = find_mesher(command)
         folder = scratch_folder()
-        model, output = (os.path.join(folder.name, name) for name in ("shape.brep", "mesh.med"))
+        model, output = (os.path.join(folder.name, name) for name in ("shape.brep", "mesh.unv"))
         if brep is None:
             shape.exportBrep(model)
             brep = Path(model).read_bytes()

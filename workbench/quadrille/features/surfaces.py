@@ -123,7 +123,7 @@ class SurfaceJob(FemJob):
         self.made_of = (fingerprint(surface), _text(asked))
         command = find_mesher(command)
         folder = scratch_folder()
-        model, output = (os.path.join(folder.name, name) for name in ("surface.ply", "mesh.med"))
+        model, output = (os.path.join(folder.name, name) for name in ("surface.ply", "mesh.unv"))
         surface.Mesh.write(model)  # single precision, like FreeCAD's meshes
         self._told_as = ((model, surface.Label), ("triangles and points counted from 0, as they come in the file",
                                                   "triangles and points counted from 0"),
