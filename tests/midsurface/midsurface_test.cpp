@@ -839,6 +839,7 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
     const std::string told = error.what();
     EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
     EXPECT_NE(told.find("; `partial` gives it nevertheless"), std::string::npos) << told;
+    EXPECT_EQ(told.find("fillet"), std::string::npos) << told;  // there is none
   }
   const MidSurface middle = middle_of(solid, true);
   ASSERT_FALSE(middle.stray_edges.empty());
