@@ -26,6 +26,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <deque>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -436,13 +437,21 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   const std::size_t more = places.size() - std::min(places_shown, places.size());
   places.resize(places.size() - more);
   if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
+  std::vector<int> alone;  // the faces there that belong to no wall
+  for (const std::vector<int>& faces : result.stray_faces)
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(alone), [&](int face) {
+      return std::find(result.unpaired.begin(), result.unpaired.end(), face) != result.unpaired.end();
+    });
+  sort_unique(alone);
+  const std::string advice =
+      alone.empty() ? ""
+                    : "; without a partner: " + face_names(alone) + "; remove it if it is a fillet or slope";
   const bool one = result.stray_edges.size() == 1;
   return fmt::format(
       "{}: {} of the middle surface {} inside the material {} (faces of the solid): the walls there are not "
-      "joined, or one is extended too far; remove the fillet or slope between them, so that they meet at a "
-      "plain corner or step",
+      "joined, or one is extended too far{}",
       name, one ? "a free edge" : fmt::format("{} free edges", result.stray_edges.size()),
-      one ? "ends" : "end", fmt::join(places, ", "));
+      one ? "ends" : "end", fmt::join(places, ", "), advice);
 }
 
 /// The parts into which the middle surface of a solid falls, by faces of the solid.

@@ -839,6 +839,7 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
     const std::string told = error.what();
     EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
     EXPECT_NE(told.find("; `partial` gives it nevertheless"), std::string::npos) << told;
+    EXPECT_EQ(told.find("fillet"), std::string::npos) << told;  // there is none
   }
   const MidSurface middle = middle_of(solid, true);
   ASSERT_FALSE(middle.stray_edges.empty());
@@ -902,6 +903,36 @@ TEST(MidSurface, MakesNoWallsBetweenCrossingRibs) {
   expect_right(middle);
   EXPECT_NEAR(area_of(middle), 120 * 80 + 2 * 90 * 18.5, 1e-6);
   for (const MiddleFace& face : middle.faces) EXPECT_NEAR(face.thickest, 3, 1e-6);
+}
+
+/// An I-beam of 400 mm, 200 high and 100 wide, with flanges of 9 and a web of 6, and pairs of stiffeners.
+TopoDS_Shape stiffened_beam(const std::vector<double>& stiffeners, double thickness, double wide) {
+  const auto box = [](double x, double y, double z, double dx, double dy, double dz) {
+    return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+  };
+  TopoDS_Shape result = box(0, -50, 0, 400, 100, 9);
+  const auto add = [&](const TopoDS_Shape& part) { result = BRepAlgoAPI_Fuse(result, part).Shape(); };
+  add(box(0, -50, 191, 400, 100, 9));
+  add(box(0, -3, 9, 400, 6, 182));
+  for (const double x : stiffeners) add(box(x, -0.5 * wide, 9, thickness, wide, 182));
+  ShapeUpgrade_UnifySameDomain unify(result);
+  unify.Build();
+  return unify.Shape();
+}
+
+/// The rims of stiffeners face each other through the web: no wall lies between them.
+TEST(MidSurface, MakesNoWallsBetweenRimsOfStiffeners) {
+  for (const double wide : {100.0, 90.0, 60.0}) {
+    for (const std::vector<double>& stiffeners :
+         {std::vector<double>{200}, std::vector<double>{100, 300}, std::vector<double>{80, 180, 280}}) {
+      const MidSurface middle = middle_of(stiffened_beam(stiffeners, 6, wide));
+      SCOPED_TRACE(fmt::format("{} pairs, {} wide", stiffeners.size(), wide));
+      expect_right(middle);
+      const double area = 2 * 400 * 100 + 400 * 191 + static_cast<double>(stiffeners.size()) * wide * 191;
+      EXPECT_NEAR(area_of(middle), area, 1e-6 * area);
+      for (const MiddleFace& face : middle.faces) EXPECT_LT(face.thickest, 9.001);
+    }
+  }
 }
 
 /// Two flat parts of a sheet of 2 mm, 50 mm long in the middle, at an angle, without a radius.
