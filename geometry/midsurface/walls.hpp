@@ -40,7 +40,7 @@ std::vector<int> surface_numbers(const Skin& skin);
 /// surface in common become one wall with a fitted middle. An example is a bend whose two radii do not share
 /// a center, together with the flat parts that one of them reaches over. Free-form walls that continue into
 /// each other smoothly, side by side, become a wall each, whose middles end at common bounds. \param surfaces
-/// of surface_numbers(). \param tolerance of fitted middles, over the thickness. Time: about ten rays for
+/// of surface_numbers(). \param tolerance of fitted middles, over the thickness. Time: up to 26 rays for
 /// each of about 24 points per face.
 std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces, double tolerance,
                              const ExecutionContext& context);
