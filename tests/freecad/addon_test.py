@@ -521,14 +521,24 @@ class AddonTest(unittest.TestCase):
             self.assertFalse(shapes.same_fingerprint(shapes.fingerprint(one), shapes.fingerprint(change)))
 
     def test_a_face_that_changes_inside_its_edges_is_seen(self):
-        def sheet(height):
+        def sheet(height, places):
             surface = Part.BSplineSurface()
-            surface.interpolate([[Vector(x, y, height if x == y == 1 else 0) for y in range(3)] for x in range(3)])
+            surface.interpolate([[Vector(x, y, places.get((x, y), 0) * height) for y in range(7)] for x in range(7)])
             return surface.toShape()
 
-        flat, higher = (shapes.fingerprint(sheet(height)) for height in (0.5, 0.500001))
-        self.assertEqual(flat, shapes.fingerprint(sheet(0.5)))
-        self.assertFalse(shapes.same_fingerprint(flat, higher))
+        for places in ({(3, 3): 1}, {(1, 1): 1}, {(1, 3): 1, (5, 3): -1}):  # the middle stays in the last
+            flat, higher = (shapes.fingerprint(sheet(height, places)) for height in (0.5, 0.51))
+            self.assertEqual(flat, shapes.fingerprint(sheet(0.5, places)))
+            self.assertFalse(shapes.same_fingerprint(flat, higher), places)
+
+    def test_a_curve_that_is_mirrored_between_its_ends_is_seen(self):
+        def plate(height):
+            curve = Part.BSplineCurve()
+            curve.interpolate([Vector(0, 0), Vector(1, height), Vector(2, 0), Vector(3, -height), Vector(4, 0)])
+            return Part.Face(Part.Wire([curve.toShape(), Part.makeLine(Vector(4, 0), Vector(4, 5)),
+                                        Part.makeLine(Vector(4, 5), Vector(0, 5)), Part.makeLine(Vector(0, 5), Vector(0, 0))]))
+
+        self.assertFalse(shapes.same_fingerprint(shapes.fingerprint(plate(0.5)), shapes.fingerprint(plate(-0.5))))
 
     # Export, quality, estimate
 

@@ -26,10 +26,10 @@ _last_fingerprint: List[Tuple[Any, List[float]]] = []
 
 
 def fingerprint(shape) -> List[float]:
-    """Numbers that change when a shape changes: its vertices, edge lengths, and a place on each face with its orientation.
+    """Numbers that change when a shape changes: its vertices, edge lengths, and the areas, centers and orientations of its faces.
 
-    Areas would take a millisecond for each face. BREP text is not suitable: it contains the display triangulation and flags of
-    checks. The fingerprint of the last shape is cached.
+    BREP text is not suitable: it contains the display triangulation and flags of checks. The fingerprint of the last shape is
+    cached.
     """
     if _last_fingerprint and _last_fingerprint[0][0].isEqual(shape):
         return list(_last_fingerprint[0][1])
@@ -39,9 +39,7 @@ def fingerprint(shape) -> List[float]:
     for edge in shape.Edges:
         numbers.append(0.0 if edge.Degenerated else edge.Length)
     for face in shape.Faces:
-        u_first, u_last, v_first, v_last = face.ParameterRange
-        place = face.valueAt((u_first + u_last) / 2, (v_first + v_last) / 2)
-        numbers += [*tuple(place), -1.0 if face.Orientation == "Reversed" else 1.0]
+        numbers += [face.Area, *tuple(face.CenterOfMass), -1.0 if face.Orientation == "Reversed" else 1.0]
     _last_fingerprint[:] = [(shape, list(numbers))]
     return numbers
 
