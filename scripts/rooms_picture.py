@@ -139,7 +139,7 @@ def picture():
         x, y = (154, (a + b) / 2 + 4) if start and end else (122, a + 4 if end else b + 4)
         out.append(f'<text x="{x}" y="{y:.0f}" text-anchor="end" fill="#930">{label}</text>')
     child = packages["freecad.py ..."] + PITCH + 40
-    for i, line in enumerate(("workbench/quadrille/ runs the command as a", "child process (core/jobs.py): BREP in, MED out.",
+    for i, line in enumerate(("workbench/quadrille/ runs the command as a", "child process (core/jobs.py): BREP in, UNV out.",
                               "In Python outside FreeCAD, workbench/module.cpp", "offers quadrille.hpp.")):
         out.append(f'<text x="690" y="{child + 17 * i}" fill="#444">{line}</text>')
     for x, text in ((210, "C++ rooms"), (690, "Python packages")):

@@ -26,7 +26,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <deque>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -437,12 +436,12 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   const std::size_t more = places.size() - std::min(places_shown, places.size());
   places.resize(places.size() - more);
   if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
-  std::vector<int> alone;  // the faces there that belong to no wall
-  for (const std::vector<int>& faces : result.stray_faces)
-    std::copy_if(faces.begin(), faces.end(), std::back_inserter(alone), [&](int face) {
-      return std::find(result.unpaired.begin(), result.unpaired.end(), face) != result.unpaired.end();
+  std::vector<int> alone = result.unpaired;  // the faces there that belong to no wall
+  std::erase_if(alone, [&](int face) {
+    return std::none_of(result.stray_faces.begin(), result.stray_faces.end(), [&](const auto& faces) {
+      return std::find(faces.begin(), faces.end(), face) != faces.end();
     });
-  sort_unique(alone);
+  });
   const std::string advice =
       alone.empty() ? ""
                     : "; without a partner: " + face_names(alone) + "; remove it if it is a fillet or slope";

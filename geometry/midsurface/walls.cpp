@@ -38,13 +38,13 @@ using Facings = std::map<std::pair<int, int>, Facing>;
 /// in the web.
 bool widest_across(const Skin& skin, const gp_Pnt& middle, const gp_Dir& across, double thickness) {
   const gp_Ax2 frame(middle, across);
-  for (const double aside : {0.0, -0.25, 0.25}) {
-    const gp_Pnt from = middle.Translated(aside * thickness * gp_Vec(across));
-    const double reach = (aside == 0 ? 0.45 : 0.25) * thickness;
-    for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
-      const gp_Dir direction = frame.XDirection().Rotated(gp_Ax1(middle, across), angle * M_PI);
-      if (skin.meets_face(from, direction, reach)) return false;
-    }
+  const gp_Vec aside(0.25 * thickness * gp_Vec(across));
+  for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
+    const gp_Dir direction = frame.XDirection().Rotated(gp_Ax1(middle, across), angle * M_PI);
+    if (skin.meets_face(middle, direction, 0.45 * thickness) ||
+        skin.meets_face(middle.Translated(aside), direction, 0.25 * thickness) ||
+        skin.meets_face(middle.Translated(-aside), direction, 0.25 * thickness))
+      return false;
   }
   return true;
 }

@@ -181,9 +181,9 @@ class TargetFinder {
     // On an arc, the number that the sizes give is a minimum: the stresses there depend on it. Only a least
     // size that users gave goes before it.
     constexpr double nearly = 0.25;
-    double most = std::ceil(wanted - nearly);
-    if (field_.has_size_min()) most = std::min(most, most_at_least_size(i, stride_));
-    least = std::max(least, to_int(most));
+    double of_arc = std::ceil(wanted - nearly);
+    if (field_.has_size_min()) of_arc = std::min(of_arc, most_at_least_size(i, stride_));
+    least = std::max(least, to_int(of_arc));
     of_grids = std::max(of_grids, to_int(std::ceil(stride_ * wanted - nearly)));
   }
 

@@ -4,7 +4,7 @@
     import quadrille.freecad
     mesh = quadrille.freecad.mesh_object(App.ActiveDocument.Part, size=2.0, order=2, analysis=analysis)
 
-The shape goes to the `quadrille` command as a BREP file, and the mesh comes back as a MED file with its groups. The mesher
+The shape goes to the `quadrille` command as a BREP file, and the mesh comes back as a UNV file with its groups. The mesher
 runs as a child process: it can neither freeze nor crash FreeCAD, and works with any build of FreeCAD.
 """
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes a Part shape in a child process. The shape goes to the `quadrille` command as a BREP file, and the mesh comes back
-as a MED file with its groups. Runs inside FreeCAD."""
+as a UNV file with its groups. Runs inside FreeCAD."""
 
 import os
 from pathlib import Path

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Quad meshes of parts as document objects: made, remeshed, flipped and exported; scripts use them through quadrille.freecad.
 
-The shape goes to the `quadrille` command as a BREP file, and the mesh comes back as a MED file with its groups. The mesher
+The shape goes to the `quadrille` command as a BREP file, and the mesh comes back as a UNV file with its groups. The mesher
 runs as a child process: it can neither freeze nor crash FreeCAD, and works with any build of FreeCAD. Runs inside FreeCAD."""
 
 import os

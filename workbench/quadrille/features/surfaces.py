@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Quad meshes of FreeCAD's triangle mesh objects, such as scans and STL files. The triangles go to `quadrille remesh` as a PLY
-file, and the mesh comes back as a MED file with its groups. Runs inside FreeCAD."""
+file, and the mesh comes back as a UNV file with its groups. Runs inside FreeCAD."""
 
 import json
 import math
