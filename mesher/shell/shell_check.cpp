@@ -74,8 +74,11 @@ class ShellCheck {
 
   void find_open_sides() {
     std::unordered_map<std::uint64_t, int> edges;  // by side_key(), the numbers
-    for (const ShellMesh::Segment& segment : mesh_.segments)
+    std::vector<char> on_edges(mesh_.points.size(), 0);
+    for (const ShellMesh::Segment& segment : mesh_.segments) {
       edges.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
+      for (const int node : segment.nodes) on_edges[node] = 1;
+    }
     int count = 0;
     std::string first;
     for_each_shared_side(
@@ -84,7 +87,9 @@ class ShellCheck {
           if (sides.size() == 2 || is_inside_faces(sides)) return;
           const auto edge = edges.find(side_key(a, b));
           if (edge != edges.end() && faces_at(edge->second) == static_cast<int>(sides.size())) return;
-          if (is_explained(sides.size(), mesh_.points[a], mesh_.points[b])) return;
+          if (on_edges[a] != 0 && on_edges[b] != 0 &&
+              is_explained(sides.size(), mesh_.points[a], mesh_.points[b]))
+            return;
           if (count++ > 0) return;
           const int face = mesh_.quad_faces[element_of(sides[0])];
           first =
