@@ -15,7 +15,6 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
-#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/strip_counts.hpp"
 
 namespace quadrille {
@@ -141,7 +140,7 @@ class TargetFinder {
       demand_.targets.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
       // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
-      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], static_cast<int>(wanted));
+      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], to_int(wanted));
       raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
       add_heads(i);
       if (plan_.prescribes(i)) {
@@ -506,11 +505,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
   StripRefiner strips(shape, field.aspect(), field.size_min());
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
-    const bool refined =
-        strips.refine(sides, division.counts, division.spacing, demand.tables, demand.targets);
-    if (!(round == 0 && fit_holes_to_grids(shape, sides, division.counts, demand.tables, demand.targets)) &&
-        !refined)
-      break;
+    if (!strips.refine(sides, division.counts, division.spacing, demand.tables, demand.targets)) break;
     sides = found;
     division = divide_edges(shape, plan, demand, sides);
   }

@@ -1,4 +1,4 @@
-/// Sorts outlines by their corners: four, three or five, or two loops.
+/// Finds outlines that grids fill: with four corners, or two loops without.
 
 #include "mesher/edges/face_sides.hpp"
 
@@ -48,7 +48,6 @@ class SideFinder {
     if (face.inner_vertices.empty()) walks = usable_walks(face);
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
-    if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
     if (!sides.facing.empty()) return sides;
     for (const CadWire& wire : face.wires)
       for (const Coedge& coedge : wire.coedges) sides.rest.push_back(coedge.edge);
@@ -103,13 +102,13 @@ class SideFinder {
     return side;
   }
 
-  /// Finds outlines with three to five corners.
+  /// Finds outlines with four corners.
   void take_corners(const Walk& walk, FaceSides& sides) const {
     const auto corners = corners_of(walk);
-    if (!corners || corners->size() < 3 || corners->size() > 5) return;
+    sides.may_be_odd = corners && (corners->size() == 3 || corners->size() == 5);
+    if (!corners || corners->size() != 4) return;
     for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
-    sides.kind = corners->size() == 4 ? GridKind::four : GridKind::odd;
-    if (corners->size() != 4) return;
+    sides.kind = GridKind::four;
     std::array<FaceSide, 4> four;
     for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
     add_pairs(four[0], turned(four[2]), sides);
@@ -120,26 +119,6 @@ class SideFinder {
   static bool is_smooth(const Walk& walk) {
     return std::all_of(walk.turnings.begin(), walk.turnings.end(),
                        [](double turning) { return std::abs(turning) <= smooth_turning; });
-  }
-
-  /// Finds outlines with four corners outside and none at the holes.
-  void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
-    const auto outer =
-        std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
-    if (outer == walks.end()) return;
-    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
-      if (walk != outer && !is_smooth(*walk)) return;
-    }
-    FaceSides found;
-    take_corners(*outer, found);
-    if (found.kind != GridKind::four) return;
-    sides = std::move(found);
-    sides.kind = GridKind::holed;
-    sides.outer = static_cast<int>(outer - walks.begin());
-    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
-      if (walk == outer) continue;
-      for (const SideEdge& edge : walk->edges) sides.rest.push_back(edge.edge);
-    }
   }
 
   /// Finds two loops without corners. Their sides start at the two vertices that are nearest to each other.
@@ -265,7 +244,7 @@ void FaceSides::drop_facing() {
     }
   }
   facing.clear();
-  if (!is_star()) drop_grid();
+  drop_grid();
 }
 
 FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,
