@@ -5,6 +5,7 @@
 
 import os
 import sys
+import time
 from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
@@ -26,7 +27,7 @@ from quadrille.document import links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import commands, overlays, preferences
+from quadrille.gui import background, commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -422,6 +423,72 @@ class PanelTest(GuiCase):
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
         self.assertEqual(quadrille.features.mesh_object._running, {})
 
+    def test_ok_while_meshing_goes_on(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.03 mm")
+        find("QuadrilleMesh").click()
+        process(0.1)
+        close_panel()
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        bar = find("QuadrilleBackground")
+        self.assertTrue(bar.isVisible())
+        wait_for(lambda: bar.value() > 0, what="the bar")
+        picture("background")
+        wait_for(lambda: not background._runs, what="the mesh")
+        self.assertEqual((mesh.Status, mesh.Size.Value), ("up to date", 0.03))
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+        self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleBackground"), [])
+        self.document.undo()
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.Size.Value), (0, 0.03))
+
+    def test_ok_while_the_size_is_sought_meshes(self):
+        FreeCADGui.Selection.addSelection(self.box())
+        trigger("Quadrille_Mesh")
+        find("QuadrilleMesh").click()
+        self.assertFalse(find("QuadrilleMesh").isEnabled(), "it waits for the size")
+        close_panel()
+        wait_for(lambda: not background._runs, what="the mesh")
+        mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertEqual(mesh.Status, "up to date")
+        self.assertGreater(mesh.Size.Value, 0)
+
+    def test_a_run_in_the_background_stops(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        for seconds in (0.1, 0.5):
+            process(seconds)
+            self.edit(mesh)  # takes the run back
+            self.assertEqual(background._runs, {})
+            self.assertTrue(find("QuadrilleStop").isEnabled())
+            close_panel()
+        began = time.monotonic()
+        find("QuadrilleBackgroundStop").click()
+        wait_for(lambda: not background._runs, what="stopping")
+        self.assertLess(time.monotonic() - began, 0.5)
+        self.assertEqual((mesh.FemMesh.FaceCount, core._running), (0, {}))
+
+    def test_a_run_in_the_background_ends_with_its_mesh(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        self.document.removeObject(mesh.Name)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
+    def test_a_failure_in_the_background_is_told(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.05 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        with Boxes() as boxes:
+            core._running[self.document.Name, mesh.Name]._job._process.kill()
+            wait_for(lambda: boxes.texts, what="the message")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
     def test_a_mesher_stands_by(self):
         self.open_panel(self.box())
         wait_for(lambda: command._standby, what="a mesher that stands by")
@@ -729,13 +796,13 @@ class PanelTest(GuiCase):
         wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
         self.assertNotIn("matplotlib", sys.modules)
         histogram = find("QuadrilleHistogram")
-        for background in (QtCore.Qt.white, QtCore.Qt.black):
+        for base in (QtCore.Qt.white, QtCore.Qt.black):
             palette = histogram.palette()
-            palette.setColor(QtGui.QPalette.Base, background)
+            palette.setColor(QtGui.QPalette.Base, base)
             histogram.setPalette(palette)
             image = histogram.grab().toImage()
             colors = [image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)]
-            self.assertEqual(max(set(colors), key=colors.count) if background == QtCore.Qt.black else "#000000", "#000000")
+            self.assertEqual(max(set(colors), key=colors.count) if base == QtCore.Qt.black else "#000000", "#000000")
             self.assertGreater(len(set(colors)), 4)
 
     # Preferences, languages, commands
