@@ -5,6 +5,7 @@
 
 import os
 import sys
+import tempfile
 import time
 from pathlib import Path
 from unittest import mock
@@ -804,6 +805,33 @@ class PanelTest(GuiCase):
             colors = [image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)]
             self.assertEqual(max(set(colors), key=colors.count) if base == QtCore.Qt.black else "#000000", "#000000")
             self.assertGreater(len(set(colors)), 4)
+
+    def test_colors_are_true_while_the_mesh_is_selected(self):
+        mesh = quadrille.freecad.mesh_object(self.box(), size=2)
+        self.document.Box.ViewObject.hide()
+        view = FreeCADGui.activeDocument().activeView()
+
+        def frequent_color():
+            """The one that the quads of the cube, all alike, have."""
+            process(0.2)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "view.png")
+                view.saveImage(path, 200, 200, "White")
+                image = QtGui.QImage(path)
+            colors = [image.pixelColor(x, y).name() for x in range(0, 200, 3) for y in range(0, 200, 3)]
+            return max(set(colors) - {"#ffffff", "#000000"}, key=colors.count)
+
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh))
+        self.show()
+        plain = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertEqual(frequent_color(), plain)
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh), "aspect")
+        overlays.hide(mesh, overlays.QUALITY)
+        FreeCADGui.Selection.clearSelection()
+        grey = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertNotEqual(frequent_color(), grey)
 
     # Preferences, languages, commands
 
