@@ -787,6 +787,12 @@ class PanelTest(GuiCase):
             analysis.addObject(obj)
         solver.BeamShellResultOutput3D = False
         self.assertRegex(told(), "^Missing before solving: stresses come from the middle")
+        mesh.Element = "CPS8"  # has one stress through the thickness
+        self.assertEqual(told(), "Nothing is missing before solving")
+        self.edit(mesh)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleSurfaces"), [])
+        close_panel()
+        mesh.Element = "S8R"
         solver.BeamShellResultOutput3D = True
         self.assertEqual(told(), "Nothing is missing before solving")
 

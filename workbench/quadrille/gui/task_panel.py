@@ -20,7 +20,7 @@ from ..core.units import digits
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..features.sizes import Count
-from ..solvers import results
+from ..solvers import element_types, results
 from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, preferences, progress_bar, standard_buttons, tell,
                translate)
 from .counting import FAILURES, Counting
@@ -189,7 +189,8 @@ class MeshPanel:
         self.surfaces.setChecked(all(getattr(solver, results.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
-        return results.solvers_of(groups.analysis_of(self.mesh))
+        """Those that can give stresses at the surfaces; none for elements that have no bending."""
+        return results.solvers_of(groups.analysis_of(self.mesh)) if element_types.is_shell(self.mesh) else []
 
     # Settings
 
