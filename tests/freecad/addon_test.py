@@ -547,7 +547,11 @@ class AddonTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "box.unv")
             core.export(mesh, path)
-            self.assertEqual(Fem.read(path).FaceCount, mesh.QuadCount)
+            read = Fem.read(path)
+            self.assertEqual(read.FaceCount, mesh.QuadCount)
+            for axis in range(3):  # in mm, whatever the file says of units
+                places = [node[axis] for node in read.Nodes.values()]
+                self.assertAlmostEqual(max(places) - min(places), 10)
             with self.assertRaises(quadrille.Error):
                 core.export(mesh, os.path.join(folder, "box.doc"))
             with self.assertRaises(quadrille.Error):

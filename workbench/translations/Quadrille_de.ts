@@ -575,6 +575,22 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>Nothing is missing before solving</source>
         <translation>Vor dem Lösen fehlt nichts</translation>
     </message>
+    <message>
+        <source>waits until the open panel or command has ended</source>
+        <translation>wartet, bis das offene Aufgabenfenster oder der Befehl beendet ist</translation>
+    </message>
+    <message>
+        <source>{}: {} quads</source>
+        <translation>{}: {} Vierecke</translation>
+    </message>
+    <message>
+        <source>Finding a size</source>
+        <translation>Suche eine Größe</translation>
+    </message>
+    <message>
+        <source>{}: not meshed, since its panel was closed</source>
+        <translation>{}: nicht vernetzt, weil das Aufgabenfenster geschlossen wurde</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -861,6 +877,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
         <translation>Paare von Flächen oder Kanten, die die gleichen Knoten erhalten, verschoben oder gedreht, etwa Face3=Face7,Edge2=Edge9; leer = keine</translation>
+    </message>
+    <message>
+        <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>
+        <translation>Größtes Verhältnis von Länge zu Breite der Vierecke in Reihen über Biegungen, Ausrundungen und schmalen Flächen; 1 = Quadrate</translation>
     </message>
 </context>
 <context>

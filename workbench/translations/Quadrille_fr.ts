@@ -575,6 +575,22 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>Nothing is missing before solving</source>
         <translation>Rien ne manque avant le calcul</translation>
     </message>
+    <message>
+        <source>waits until the open panel or command has ended</source>
+        <translation>attend la fin du panneau ou de la commande en cours</translation>
+    </message>
+    <message>
+        <source>{}: {} quads</source>
+        <translation>{} : {} quadrangles</translation>
+    </message>
+    <message>
+        <source>Finding a size</source>
+        <translation>Recherche d’une taille</translation>
+    </message>
+    <message>
+        <source>{}: not meshed, since its panel was closed</source>
+        <translation>{} : non maillé, car son panneau a été fermé</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -861,6 +877,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
         <translation>Paires de faces ou d’arêtes qui reçoivent les mêmes nœuds, par une translation ou une rotation, comme Face3=Face7,Edge2=Edge9 ; vide = aucune</translation>
+    </message>
+    <message>
+        <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>
+        <translation>Plus grand rapport longueur sur largeur des quadrangles en rangées sur les plis, les congés et les faces étroites ; 1 = carrés</translation>
     </message>
 </context>
 <context>

@@ -21,6 +21,7 @@ from PySide import QtCore, QtGui
 
 import quadrille.core.quality
 import quadrille.freecad
+from quadrille.gui import background
 from case import MODELS, GuiCase, picture, run, type_size
 from driver import Boxes, click_at, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.setting_table import SETTINGS
@@ -627,6 +628,8 @@ class GuiTest(GuiCase):
             quadrille.freecad.remesh(mesh)
         self.assertIn("already", str(caught.exception))
         close_panel()
+        find("QuadrilleBackgroundStop").click()
+        wait_for(lambda: not background._runs, what="stopping")
         self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_the_document_is_closed_while_meshing(self):

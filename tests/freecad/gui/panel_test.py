@@ -5,6 +5,8 @@
 
 import os
 import sys
+import tempfile
+import time
 from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
@@ -26,7 +28,7 @@ from quadrille.document import links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import commands, overlays, preferences
+from quadrille.gui import background, commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -422,6 +424,72 @@ class PanelTest(GuiCase):
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
         self.assertEqual(quadrille.features.mesh_object._running, {})
 
+    def test_ok_while_meshing_goes_on(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.03 mm")
+        find("QuadrilleMesh").click()
+        process(0.1)
+        close_panel()
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        bar = find("QuadrilleBackground")
+        self.assertTrue(bar.isVisible())
+        wait_for(lambda: bar.value() > 0, what="the bar")
+        picture("background")
+        wait_for(lambda: not background._runs, what="the mesh")
+        self.assertEqual((mesh.Status, mesh.Size.Value), ("up to date", 0.03))
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+        self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleBackground"), [])
+        self.document.undo()
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.Size.Value), (0, 0.03))
+
+    def test_ok_while_the_size_is_sought_meshes(self):
+        FreeCADGui.Selection.addSelection(self.box())
+        trigger("Quadrille_Mesh")
+        find("QuadrilleMesh").click()
+        self.assertFalse(find("QuadrilleMesh").isEnabled(), "it waits for the size")
+        close_panel()
+        wait_for(lambda: not background._runs, what="the mesh")
+        mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertEqual(mesh.Status, "up to date")
+        self.assertGreater(mesh.Size.Value, 0)
+
+    def test_a_run_in_the_background_stops(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        for seconds in (0.1, 0.5):
+            process(seconds)
+            self.edit(mesh)  # takes the run back
+            self.assertEqual(background._runs, {})
+            self.assertTrue(find("QuadrilleStop").isEnabled())
+            close_panel()
+        began = time.monotonic()
+        find("QuadrilleBackgroundStop").click()
+        wait_for(lambda: not background._runs, what="stopping")
+        self.assertLess(time.monotonic() - began, 0.5)
+        self.assertEqual((mesh.FemMesh.FaceCount, core._running), (0, {}))
+
+    def test_a_run_in_the_background_ends_with_its_mesh(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        self.document.removeObject(mesh.Name)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
+    def test_a_failure_in_the_background_is_told(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.05 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        with Boxes() as boxes:
+            core._running[self.document.Name, mesh.Name]._job._process.kill()
+            wait_for(lambda: boxes.texts, what="the message")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
     def test_a_mesher_stands_by(self):
         self.open_panel(self.box())
         wait_for(lambda: command._standby, what="a mesher that stands by")
@@ -719,6 +787,12 @@ class PanelTest(GuiCase):
             analysis.addObject(obj)
         solver.BeamShellResultOutput3D = False
         self.assertRegex(told(), "^Missing before solving: stresses come from the middle")
+        mesh.Element = "CPS8"  # has one stress through the thickness
+        self.assertEqual(told(), "Nothing is missing before solving")
+        self.edit(mesh)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleSurfaces"), [])
+        close_panel()
+        mesh.Element = "S8R"
         solver.BeamShellResultOutput3D = True
         self.assertEqual(told(), "Nothing is missing before solving")
 
@@ -729,14 +803,41 @@ class PanelTest(GuiCase):
         wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
         self.assertNotIn("matplotlib", sys.modules)
         histogram = find("QuadrilleHistogram")
-        for background in (QtCore.Qt.white, QtCore.Qt.black):
+        for base in (QtCore.Qt.white, QtCore.Qt.black):
             palette = histogram.palette()
-            palette.setColor(QtGui.QPalette.Base, background)
+            palette.setColor(QtGui.QPalette.Base, base)
             histogram.setPalette(palette)
             image = histogram.grab().toImage()
             colors = [image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)]
-            self.assertEqual(max(set(colors), key=colors.count) if background == QtCore.Qt.black else "#000000", "#000000")
+            self.assertEqual(max(set(colors), key=colors.count) if base == QtCore.Qt.black else "#000000", "#000000")
             self.assertGreater(len(set(colors)), 4)
+
+    def test_colors_are_true_while_the_mesh_is_selected(self):
+        mesh = quadrille.freecad.mesh_object(self.box(), size=2)
+        self.document.Box.ViewObject.hide()
+        view = FreeCADGui.activeDocument().activeView()
+
+        def frequent_color():
+            """The one that the quads of the cube, all alike, have."""
+            process(0.2)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "view.png")
+                view.saveImage(path, 200, 200, "White")
+                image = QtGui.QImage(path)
+            colors = [image.pixelColor(x, y).name() for x in range(0, 200, 3) for y in range(0, 200, 3)]
+            return max(set(colors) - {"#ffffff", "#000000"}, key=colors.count)
+
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh))
+        self.show()
+        plain = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertEqual(frequent_color(), plain)
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh), "aspect")
+        overlays.hide(mesh, overlays.QUALITY)
+        FreeCADGui.Selection.clearSelection()
+        grey = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertNotEqual(frequent_color(), grey)
 
     # Preferences, languages, commands
 

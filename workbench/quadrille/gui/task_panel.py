@@ -20,8 +20,9 @@ from ..core.units import digits
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..features.sizes import Count
-from ..solvers import results
-from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
+from ..solvers import element_types, results
+from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, preferences, progress_bar, standard_buttons, tell,
+               translate)
 from .counting import FAILURES, Counting
 from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
@@ -61,7 +62,6 @@ class MeshPanel:
         self._job_wanted: state.Wanted  # set with the job
         self._anew: set = set()
         self._refused: Dict[str, str] = {}  # what the mesher has said about fields that have not changed since, by property
-        self._started = 0.0
         self._part_was_visible = mesh.Shape.ViewObject.Visibility
         self._counting = Counting(self._counted)
         # A new mesh gets a size, unless the user gives one before it is found.
@@ -78,6 +78,10 @@ class MeshPanel:
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         QtCore.QTimer.singleShot(0, self._hint_at_thin)
         self._update_estimate()
+        job = background.take_back(mesh)
+        if job is not None:
+            self._job_wanted = state.wanted_of(mesh)
+            self._follow(job)
 
     # Widgets
 
@@ -185,7 +189,8 @@ class MeshPanel:
         self.surfaces.setChecked(all(getattr(solver, results.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
-        return results.solvers_of(groups.analysis_of(self.mesh))
+        """Those that can give stresses at the surfaces; none for elements that have no bending."""
+        return results.solvers_of(groups.analysis_of(self.mesh)) if element_types.is_shell(self.mesh) else []
 
     # Settings
 
@@ -441,13 +446,17 @@ class MeshPanel:
         self._show_errors()
         try:
             self._job_wanted = self._wanted()
-            self._job = core.start(self.mesh, wanted=self._job_wanted)
+            job = core.start(self.mesh, wanted=self._job_wanted)
         except Error as error:
             self._say(str(error))
             self._show_errors(error)
             tell(str(error))
             return
-        self._started = time.monotonic()
+        self._follow(job)
+
+    def _follow(self, job: core.ShapeJob) -> None:
+        """Shows the progress of a job, until it ends."""
+        self._job = job
         self._show_progress(0)
         self.mesh_button.setEnabled(False)
         self.stop_button.setEnabled(True)
@@ -476,8 +485,7 @@ class MeshPanel:
             _, report = job.result()
             with self._session.step("Quad mesh"):
                 self._store(self._commands(self._job_wanted))
-                core.hand_over(self.mesh, job)
-                do(f"quadrille.freecad.remesh({path_of(self.mesh)})")
+                background.store(self.mesh, job)
         except Error as error:
             core.forget(self._document_name, self._name)
             self._show_progress(0)
@@ -493,10 +501,8 @@ class MeshPanel:
                 self._say(line)
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
-            self.mesh.QuadCount, digits(round(ended - self._started, 2)), digits(round(time.monotonic() - ended, 2))))
-        self.mesh.ViewObject.show()
-        if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
-            self.mesh.Shape.ViewObject.hide()
+            self.mesh.QuadCount, digits(round(ended - job.started, 2)), digits(round(time.monotonic() - ended, 2))))
+        background.show(self.mesh)
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
@@ -526,23 +532,25 @@ class MeshPanel:
         return standard_buttons("Ok", "Cancel")
 
     def accept(self) -> bool:
-        """Called on OK: keeps mesh and settings, ends the mesher."""
+        """Called on OK: keeps mesh and settings; the mesher goes on in the background."""
         try:
             if self._suggests:
-                self._counting.finish()
+                with progress_bar(translate("Quadrille", "Finding a size")) as show:
+                    if not self._counting.finish(lambda: show("", 0)):
+                        return False
             # If the part has been deleted meanwhile, there is nothing to set.
             lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
             tell(str(error))
             return False
-        if self._job is not None:
-            self._job.cancel()
-            self._end(self._job)
         if lines:
             with self._session.step("Quad mesh settings"):
                 self._store(lines)
         self._session.keep()
+        job, self._job = self._job, None
         self._close()
+        if job is not None:
+            background.go_on(self.mesh, job)
         self.mesh.Document.recompute()
         return True
 
@@ -584,11 +592,13 @@ class MeshPanel:
         QtCore.QTimer.singleShot(0, FreeCADGui.Control.closeDialog)
 
     def _form_gone(self, *_) -> None:
-        """Called when FreeCAD has closed the panel by itself: ends the mesher, since its mesh can no longer be stored."""
+        """Called when FreeCAD has closed the panel by itself: ends the mesher, as the settings can no longer be stored."""
         job, self._job = self._job, None
         if job is not None:
             job.cancel()
             core.forget(self._document_name, self._name)
+            said = translate("Quadrille", "{}: not meshed, since its panel was closed").format(self._name)
+            FreeCAD.Console.PrintWarning(said + "\n")
         self._session.keep()
         self._leave()
 
