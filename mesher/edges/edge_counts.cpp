@@ -265,7 +265,7 @@ class CountProblem {
     is_between_grids_.assign(problem_.variables.size(), 1);
     for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
-      const bool is_grid = sides.is_filled();
+      const bool is_grid = sides.rest.empty() && sides.is_filled();
       for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.chords.of(edge)] &= is_grid; });
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.chords.of(edge)] = 0;

@@ -15,6 +15,7 @@
 #include "mesher/edges/edge_counts.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/strip_counts.hpp"
 
 namespace quadrille {
@@ -505,7 +506,11 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
   StripRefiner strips(shape, field.aspect(), field.size_min());
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
-    if (!strips.refine(sides, division.counts, division.spacing, demand.tables, demand.targets)) break;
+    const bool refined =
+        strips.refine(sides, division.counts, division.spacing, demand.tables, demand.targets);
+    if (!(round == 0 && fit_holes_to_grids(shape, sides, division.counts, demand.tables, demand.targets)) &&
+        !refined)
+      break;
     sides = found;
     division = divide_edges(shape, plan, demand, sides);
   }

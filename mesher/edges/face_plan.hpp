@@ -5,6 +5,7 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/face_sides.hpp"
+#include "mesher/edges/hole_blocks.hpp"
 #include "mesher/edges/row_lines.hpp"
 
 namespace quadrille {
@@ -20,11 +21,12 @@ struct FacePlan {
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 for faces that are
   /// subdivided, unless one of their edges has an odd number of segments, or rows end on one; else 1.
   int stride = 1;
-  int grid_quads = 0;             ///< of a grid between four sides; 0 for other faces
-  bool is_filled = false;         ///< a grid fills the face, so that its sides need no room between them
-  bool has_kept_edge = false;     ///< users prescribe the spacing of one of its edges
-  bool has_divided_edge = false;  ///< users prescribe the number of segments on one of its edges
-  bool keeps_rows = false;        ///< the rows of its grid follow a prescribed spacing
+  int grid_quads = 0;                  ///< of a grid between four sides; 0 for other faces
+  std::vector<HoleBlock> hole_blocks;  ///< cells that holes replace, by wire without that of the outline
+  bool is_filled = false;              ///< a grid fills the face, so that its sides need no room between them
+  bool has_kept_edge = false;          ///< users prescribe the spacing of one of its edges
+  bool has_divided_edge = false;       ///< users prescribe the number of segments on one of its edges
+  bool keeps_rows = false;             ///< the rows of its grid follow a prescribed spacing
 };
 
 using FacePlans = IdVector<FaceId, FacePlan>;

@@ -48,6 +48,7 @@ class SideFinder {
     if (face.inner_vertices.empty()) walks = usable_walks(face);
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
+    if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
     if (!sides.facing.empty()) return sides;
     for (const CadWire& wire : face.wires)
       for (const Coedge& coedge : wire.coedges) sides.rest.push_back(coedge.edge);
@@ -119,6 +120,26 @@ class SideFinder {
   static bool is_smooth(const Walk& walk) {
     return std::all_of(walk.turnings.begin(), walk.turnings.end(),
                        [](double turning) { return std::abs(turning) <= smooth_turning; });
+  }
+
+  /// Finds outlines with four corners outside and none at the holes.
+  void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
+    const auto outer =
+        std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
+    if (outer == walks.end()) return;
+    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
+      if (walk != outer && !is_smooth(*walk)) return;
+    }
+    FaceSides found;
+    take_corners(*outer, found);
+    if (found.kind != GridKind::four) return;
+    sides = std::move(found);
+    sides.kind = GridKind::holed;
+    sides.outer = static_cast<int>(outer - walks.begin());
+    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
+      if (walk == outer) continue;
+      for (const SideEdge& edge : walk->edges) sides.rest.push_back(edge.edge);
+    }
   }
 
   /// Finds two loops without corners. Their sides start at the two vertices that are nearest to each other.

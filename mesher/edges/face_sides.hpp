@@ -27,7 +27,8 @@ struct FacingPair {
 enum class GridKind {
   other,
   four,  ///< one loop with four corners
-  ring   ///< two loops without corners
+  ring,  ///< two loops without corners
+  holed  ///< one loop with four corners, and holes without corners
 };
 
 /// The outline of a face and the conditions that the counts around it must satisfy.
@@ -41,16 +42,19 @@ struct FaceSides {
   /// Three or five corners: the sum may be odd where the triangle that then remains is subdivided. One more
   /// node on a side of a small triangle would make elements far shorter than they are wide.
   bool may_be_odd = false;
-  /// (four) index of the first coedge of each side in the wire
+  int outer = 0;  ///< index of the wire with the corners
+  /// (four, holed) index of the first coedge of each side in that wire
   std::vector<int> starts;
 
   /// Whether a grid fills the face: its nodes face each other, its sides need no room between them, and rows
   /// run from end to end, or all the way around.
-  bool is_filled() const { return kind != GridKind::other; }
+  bool is_filled() const { return kind != GridKind::other && kind != GridKind::holed; }
   /// Whether the face has four sides, each with one count.
   bool is_rectangle() const { return kind == GridKind::four && facing.size() == 2; }
   /// Whether the face has four sides, which may be cut into parts with counts of their own.
   bool has_four_sides() const { return kind == GridKind::four; }
+  /// Whether holes take the place of cells of its grid.
+  bool has_holes() const { return kind == GridKind::holed; }
 
   /// No grid fills the face: it ends before its corners.
   void drop_grid() { kind = GridKind::other; }

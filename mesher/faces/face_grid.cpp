@@ -63,7 +63,7 @@ std::vector<Line> cut_loop(const FaceBoundary& boundary, const FaceSides& sides,
   std::vector<Line> lines;
   std::vector<int> corners;
   for (const int start : sides.starts) {
-    const int segment = boundary.first_segments[0][start];
+    const int segment = boundary.first_segments[sides.outer][start];
     const auto it = std::find(loop.begin(), loop.end(), segment < 0 ? -1 : boundary.segments[segment].a);
     if (it == loop.end()) return {};
     corners.push_back(static_cast<int>(it - loop.begin()));
@@ -78,9 +78,47 @@ std::vector<Line> cut_loop(const FaceBoundary& boundary, const FaceSides& sides,
   return lines;
 }
 
+/// The points around a block, counter-clockwise in cells.
+Line outline_of(const std::vector<Line>& rows, const HoleBlock& block) {
+  const int left = block.column, right = left + block.columns, low = block.row, high = low + block.rows;
+  Line line;
+  for (int i = left; i < right; ++i) line.push_back(rows[low][i]);
+  for (int j = low; j < high; ++j) line.push_back(rows[j][right]);
+  for (int i = right; i > left; --i) line.push_back(rows[high][i]);
+  for (int j = high; j > low; --j) line.push_back(rows[j][left]);
+  return line;
+}
+
 double cross(const FaceGrid& grid, int a, int b, int c) {
   const Vector2 p = grid.uv[b] - grid.uv[a], q = grid.uv[c] - grid.uv[a];
   return p.x() * q.y() - p.y() * q.x();
+}
+
+/// Twice the area that a closed line encloses in the parameter plane.
+double area_of(const FaceGrid& grid, const Line& line) {
+  double area = 0;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) area += cross(grid, line[0], line[k], line[k + 1]);
+  return area;
+}
+
+/// Removes the points inside that no quad uses.
+void drop_unused(FaceGrid& grid) {
+  std::vector<int> number(grid.uv.size(), -1);
+  for (const auto& quad : grid.quads) {
+    for (const int point : quad) number[point] = 0;
+  }
+  int kept = 0;
+  for (int i = 0; i < static_cast<int>(number.size()); ++i) {
+    if (i >= std::ssize(grid.nodes) && number[i] < 0) continue;
+    grid.uv[kept] = grid.uv[i];
+    grid.points[kept] = grid.points[i];
+    number[i] = kept++;
+  }
+  grid.uv.resize(kept);
+  grid.points.resize(kept);
+  for (auto& quad : grid.quads) {
+    for (int& point : quad) point = number[point];
+  }
 }
 
 /// Makes the quads counter-clockwise: a wire may run the wrong way around.
@@ -154,7 +192,7 @@ class GridMaker {
   bool make_ring(const Line& outer, Line inner) {
     if (outer.size() != inner.size()) return false;
     const int n = static_cast<int>(outer.size());
-    std::rotate(inner.begin(), inner.begin() + nearest_shift(outer, inner), inner.end());
+    std::rotate(inner.begin(), inner.begin() + nearest_shift(outer, inner).first, inner.end());
     const int mid = n / 2;
     const std::vector<double> shares = rows_between(outer[mid], inner[mid]);
     std::vector<Line> rows{outer};
@@ -164,6 +202,31 @@ class GridMaker {
     }
     rows.push_back(inner);
     add_rows(rows);
+    return true;
+  }
+
+  /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
+  bool make_holed(const std::vector<Line>& sides, const std::vector<Line>& loops, int outer,
+                  const std::vector<HoleBlock>& blocks) {
+    if (!face_each_other(sides)) return false;
+    const std::vector<Line> rows = rows_inside(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
+    const int columns = static_cast<int>(sides[0].size()) - 1,
+              row_count = static_cast<int>(sides[1].size()) - 1;
+    if (columns < 3 || row_count < 3) return false;
+    std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
+    auto block = blocks.begin();
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      if (static_cast<int>(i) == outer) continue;
+      if (block->around() != static_cast<int>(loops[i].size())) return false;
+      for (int j = block->row; j < block->row + block->rows; ++j)
+        std::fill_n(covered.begin() + static_cast<long>(j) * columns + block->column, block->columns, 1);
+      join_hole(outline_of(rows, *block++), loops[i]);
+    }
+    for (int j = 0; j < row_count; ++j) {
+      for (int i = 0; i < columns; ++i) {
+        if (!covered[static_cast<std::size_t>(j) * columns + i]) add_cell(rows, i, j);
+      }
+    }
     return true;
   }
 
@@ -245,6 +308,29 @@ class GridMaker {
     return rows;
   }
 
+  /// Makes rings of quads between the outline of a block and a hole with the same number of nodes.
+  void join_hole(const Line& outline, Line hole) {
+    const std::size_t n = hole.size();
+    if (area_of(grid_, hole) * area_of(grid_, outline) < 0) hole = turned(hole);
+    const auto [shift, way] = nearest_shift(outline, hole);
+    std::rotate(hole.begin(), hole.begin() + shift, hole.end());
+    double length = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      length += 0.5 * (grid_.points[outline[(k + 1) % n]] - grid_.points[outline[k]]).norm() +
+                0.5 * (grid_.points[hole[(k + 1) % n]] - grid_.points[hole[k]]).norm();
+    }
+    const int rings = std::max(1, round_to_int(way / length));
+    grid_.rings = grid_.rings == 0 ? rings : std::min(grid_.rings, rings);
+    std::vector<Line> lines{outline};
+    for (int ring = 1; ring < rings; ++ring) {
+      Line& line = lines.emplace_back();
+      for (std::size_t k = 0; k < n; ++k)
+        line.push_back(add_between(outline[k], hole[k], static_cast<double>(ring) / rings));
+    }
+    lines.push_back(hole);
+    add_rows(lines);
+  }
+
   /// Adds quads between consecutive closed lines.
   void add_rows(const std::vector<Line>& lines) {
     const std::size_t n = lines.front().size();
@@ -257,8 +343,8 @@ class GridMaker {
   }
 
   /// The number of places by which to rotate a closed line so that its points are nearest to those of another
-  /// one.
-  int nearest_shift(const Line& outer, const Line& inner) {
+  /// one, and the approximate sum of the distances then.
+  std::pair<int, double> nearest_shift(const Line& outer, const Line& inner) {
     const int n = static_cast<int>(outer.size()), step = std::max(1, n / 32);
     int best = 0;
     double shortest = std::numeric_limits<double>::infinity();
@@ -272,7 +358,7 @@ class GridMaker {
         best = shift;
       }
     }
-    return best;
+    return {best, shortest};
   }
 
   FaceGrid grid_;
@@ -289,14 +375,31 @@ std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& 
   const GridKind kind = plan.sides.kind;
   std::optional<Outline> outline = kind == GridKind::other ? std::nullopt : find_outline(boundary);
   if (!outline) return std::nullopt;
-  const std::vector<Line>& loops = outline->loops;
+  const auto& loops = outline->loops;
+  const int outer = plan.sides.outer;
   SparseCheck check(context);
   GridMaker maker(std::move(outline->grid), surface, size_at, check);
-  const bool is_made = kind == GridKind::ring
-                           ? loops.size() == 2 && maker.make_ring(loops[0], turned(loops[1]))
-                           : loops.size() == 1 && maker.make_four(cut_loop(boundary, plan.sides, loops[0]));
+  bool is_made = false;
+  if (kind == GridKind::ring) {
+    is_made = loops.size() == 2 && maker.make_ring(loops[0], turned(loops[1]));
+  } else {
+    const std::vector<Line> sides = cut_loop(boundary, plan.sides, loops[outer]);
+    if (kind == GridKind::holed)
+      is_made = loops.size() == boundary.first_segments.size() &&
+                loops.size() == plan.hole_blocks.size() + 1 &&
+                maker.make_holed(sides, loops, outer, plan.hole_blocks);
+    else
+      is_made = loops.size() == 1 && maker.make_four(sides);
+  }
   if (!is_made) return std::nullopt;
   FaceGrid grid = std::move(maker).grid();
+  if (kind == GridKind::holed) {
+    // The shape can be judged only after nodes have been moved.
+    if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
+    drop_unused(grid);
+    turn_to_left(grid, check);
+    return grid;
+  }
   turn_to_left(grid, check);
   if (!is_good(grid, check) || !follows_sizes(grid, loops, size_at, check)) return std::nullopt;
   return grid;

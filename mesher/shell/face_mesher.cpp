@@ -172,6 +172,8 @@ class FaceMesher {
     auto grid = make_grid(chart_.boundary, plan_, surface_, size_at_, context_);
     context_.check();
     if (!grid) return std::nullopt;
+    const bool has_holes = grid->rings > 0;
+    if (has_holes && grid->rings < options_.rings) return std::nullopt;
     FaceQuads quads;
     quads.nodes = std::move(grid->nodes);
     auto& mesh = quads.surface_mesh;
@@ -179,9 +181,26 @@ class FaceMesher {
     mesh.mesh.points = std::move(grid->points);
     mesh.parameters = std::move(grid->uv);
     quads.pole.assign(mesh.parameters.size(), 0);
+    context_.check();
+    if (has_holes && !settle(quads)) return std::nullopt;
     FaceMesh result = finish(std::move(quads));
     result.grid = true;
     return result;
+  }
+
+  /// Moves the nodes of a grid with holes. \return whether its quads are then well shaped.
+  bool settle(FaceQuads& quads) {
+    constexpr int rounds = 6;
+    constexpr double least_jacobian = 0.5;
+    SurfaceMesh& mesh = quads.surface_mesh;
+    for (const Vector2& uv : mesh.parameters) mesh.normals.push_back(surface_.normal(uv));
+    mesh.fixed.assign(mesh.parameters.size(), 0);
+    std::fill_n(mesh.fixed.begin(), quads.nodes.size(), 1);
+    for (int round = 0; round < rounds; ++round) smooth(quads, surface_, options_.improve, context_);
+    const auto& p = mesh.mesh.points;
+    return std::all_of(mesh.mesh.quads.begin(), mesh.mesh.quads.end(), [&](const std::array<int, 4>& q) {
+      return folded_scaled_jacobian(p[q[0]], p[q[1]], p[q[2]], p[q[3]], mesh.normals[q[0]]) > least_jacobian;
+    });
   }
 
   FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {

@@ -30,6 +30,15 @@ TEST(FacePlan, CountsTheQuadsOfAGrid) {
   EXPECT_FALSE(plan.has_kept_edge || plan.has_divided_edge || plan.keeps_rows);
 }
 
+TEST(FacePlan, KnowsHoles) {
+  const CadModel plate = CadModel::read(sample_model("plate_with_holes").path());
+  const BoundaryNodes holed = sampled(plate, 3, 1);
+  const FacePlan& plan = holed.plans[face_id(1)];
+  EXPECT_FALSE(plan.is_filled);
+  EXPECT_TRUE(plan.sides.has_holes());
+  EXPECT_EQ(plan.grid_quads, 0);
+}
+
 /// Quads are cut in four only where all edges have even numbers of segments.
 TEST(FacePlan, SubdividesOnlyWhatIsEven) {
   int cut = 0;

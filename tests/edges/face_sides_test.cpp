@@ -88,7 +88,7 @@ TEST(FaceSides, KnowsRingsHolesAndRoundFaces) {
   EXPECT_EQ(crooked.kind, GridKind::other);
   EXPECT_EQ(crooked.rest.size(), 2U);
   const FaceSides holed = outlines_of(CadModel::read(sample_model("plate_with_holes").path()), 3)[face_id(1)];
-  EXPECT_EQ(holed.kind, GridKind::other);
+  EXPECT_EQ(holed.kind, GridKind::holed);
   const CadModel disc = CadModel::read(sample_model("disc").path());
   const FaceSides round = outlines_of(disc, 2)[face_id(1)];
   EXPECT_EQ(round.kind, GridKind::other);

@@ -185,6 +185,39 @@ TEST(HoleRings, GoRoundHolesInCurvedFaces) {
   }
 }
 
+/// The plate of the title picture: rows along its sides, and irregular vertices nowhere but at the corners of
+/// the blocks that give way to the holes.
+TEST(HoleRings, LieInAGridWhereTheOutlineHasFourCorners) {
+  const TopoDS_Shape part = plate(100, 80, four_holes);
+  const ShellMesh mesh = mesh_of(part, 3, 1);
+  EXPECT_EQ(mesh.faces[0].note, "grid");
+  const QualitySummary summary = quality(mesh);
+  EXPECT_GT(summary.q_mean, 0.94);
+  EXPECT_GT(summary.q_min, 0.7);
+  std::map<int, int> valence;
+  for (const auto& quad : mesh.quads) {
+    for (const int node : quad) ++valence[node];
+  }
+  for (const auto& segment : mesh.segments) {
+    for (const int node : segment.nodes) valence.erase(node);
+  }
+  std::map<int, int> count;
+  for (const auto& [node, quads] : valence) ++count[quads];
+  EXPECT_EQ(count.size(), 2U);
+  EXPECT_EQ(count[5], 16);
+  for (const int rings : rings_at_holes(part, mesh, 1)) EXPECT_GE(rings, 1);
+  // The plate is its own mirror image, and the mesh nearly.
+  const auto distance_to_mesh = [&](const Vector3& p) {
+    double nearest = 1e9;
+    for (const Vector3& q : mesh.points) nearest = std::min(nearest, (p - q).norm());
+    return nearest;
+  };
+  for (const Vector3& p : mesh.points) {
+    EXPECT_LT(distance_to_mesh({100 - p.x(), p.y(), 0}), 0.5);
+    EXPECT_LT(distance_to_mesh({p.x(), 80 - p.y(), 0}), 0.5);
+  }
+}
+
 TEST(HoleRings, LieInTheGridOfAWall) {
   const TopoDS_Shape part = bored_cylinder();
   const ShellMesh mesh = mesh_of(part, 2, 1);
