@@ -512,10 +512,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Hier verfeinern</translation>
     </message>
     <message>
-        <source>Half the size of the element, on its whole face</source>
-        <translation>Halbe Größe des Elements, auf seiner ganzen Fläche</translation>
-    </message>
-    <message>
         <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
         <translation>Element {} auf {}: q {}, Seitenverhältnis {}, Winkel {} bis {} Grad</translation>
     </message>
@@ -682,6 +678,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Elements</source>
         <translation>Elemente</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, in a ball three elements wide around it</source>
+        <translation>Halbe Größe des Elements, in einer Kugel um es, die drei Elemente breit ist</translation>
+    </message>
+    <message>
+        <source>refined where asked: the smallest q fell from {} to {}</source>
+        <translation>wie verlangt verfeinert: das kleinste q fiel von {} auf {}</translation>
     </message>
 </context>
 <context>

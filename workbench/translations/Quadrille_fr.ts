@@ -512,10 +512,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Affiner ici</translation>
     </message>
     <message>
-        <source>Half the size of the element, on its whole face</source>
-        <translation>La moitié de la taille de l'élément, sur toute sa face</translation>
-    </message>
-    <message>
         <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
         <translation>Élément {} sur {} : q {}, allongement {}, angles de {} à {} degrés</translation>
     </message>
@@ -682,6 +678,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Elements</source>
         <translation>Éléments</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, in a ball three elements wide around it</source>
+        <translation>La moitié de la taille de l'élément, dans une boule large de trois éléments autour de lui</translation>
+    </message>
+    <message>
+        <source>refined where asked: the smallest q fell from {} to {}</source>
+        <translation>affiné à l'endroit voulu : le q minimal est passé de {} à {}</translation>
     </message>
 </context>
 <context>

@@ -752,18 +752,44 @@ class PanelTest(GuiCase):
         self.assertTrue(told.text().startswith(f"Element {measured.ids[index]} on Face"), told.text())
         self.assertNotIn("forced", told.text())
         picture("element")
-        face = told.text().split()[3].rstrip(":")
+        find("QuadrilleRefinements").setChecked(False)
         find("QuadrilleRefineHere").click()
-        self.assertEqual(find("QuadrilleRefinedName0").text(), face)
+        process(0.3)
+        name, box = find("QuadrilleEntryName0"), find("QuadrilleEntry0")
+        self.assertTrue(name.text().startswith("SizeIn sphere:"))
+        x, y, z, radius = map(float, name.text().split(":")[1].split(","))
+        np.testing.assert_allclose((x, y, z), measured.centers[index], atol=1e-4)
+        self.assertAlmostEqual(radius, 1.5 * measured.lengths[index], 4)
+        self.assertAlmostEqual(float(box.text()), measured.lengths[index] / 2, 2)
+        self.assertEqual((box.hasFocus(), box.selectedText()), (True, box.text()))
+        self.assertEqual(box.visibleRegion().boundingRect(), box.rect())
+        picture("refined_here")
         row = list(quality.CRITERIA).index("angle_min")
         table = find("QuadrilleCriteria")
         click(table.viewport(), QtCore.QPointF(table.visualItemRect(table.item(row, 0)).center()))
         self.assertEqual(find("QuadrilleMeasure").currentData(), "angle_min")
         self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
         close_panel()
-        self.assertEqual(len(mesh.MeshRegionList), 1)
+        self.assertEqual((len(mesh.SizeIn), mesh.MeshRegionList), (1, []))
         view.viewFront()
         click_at(FreeCAD.Vector(*measured.centers[index]))  # nobody listens any more
+
+    def test_a_refinement_that_lowers_the_worst_q_says_so(self):
+        part = self.document.addObject("Part::Feature", "Cube")
+        part.Shape = Part.makeBox(40, 40, 40)
+        mesh = quadrille.freecad.mesh_object(part, size=5, order=1)
+        self.assertGreater(mesh.WorstQuality, 0.99)  # squares
+        self.edit(mesh)
+        wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
+        find("QuadrilleWorst").setCurrentRow(0)
+        find("QuadrilleRefineHere").click()
+        self.press_mesh()
+        text = f"the smallest q fell from 1.000 to {mesh.WorstQuality:.3f}"
+        self.assertIn(text, window().statusBar().currentMessage())
+        self.assertIn(text, find("QuadrilleLog").toPlainText())
+        self.press_mesh()
+        self.assertNotIn("fell", find("QuadrilleLog").toPlainText())
+        close_panel()
 
     def test_what_is_missing_before_solving(self):
         import FemGui

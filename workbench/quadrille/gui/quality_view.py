@@ -10,8 +10,8 @@ from PySide import QtCore, QtGui
 from ..core import quality
 from ..core.units import digits
 from ..solvers import checklist
-from . import QT_TRANSLATE_NOOP, do, drawn_icon, links_text, overlays, path_of, standard_buttons, transaction, translate
-from .element_view import ElementView
+from . import QT_TRANSLATE_NOOP, do, drawn_icon, overlays, path_of, standard_buttons, transaction, translate
+from .element_view import Ball, ElementView
 from .histogram import Histogram
 from .wheel import calm
 
@@ -47,8 +47,8 @@ MEASURES = {
 class QualityWidget(QtGui.QWidget):
     """The quality of one mesh object. The first table shows the mesher's numbers; the rest is measured here."""
 
-    def __init__(self, mesh, refine: Callable[[str, float], None]) -> None:
-        """refine: called with a face and a size where the user wants that face finer."""
+    def __init__(self, mesh, refine: Callable[[Ball], None]) -> None:
+        """refine: called with a place that the user wants finer."""
         super().__init__()
         self.mesh = mesh
         self._measured: Optional[quality.ElementQuality] = None
@@ -334,11 +334,12 @@ class QualityPanel:
         self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)
 
-    def _refine(self, face: str, size: float) -> None:
-        """Adds a refinement, which the next meshing follows."""
+    def _refine(self, ball: Ball) -> None:
+        """Adds a size at a place, which the next meshing follows."""
         with transaction(self._mesh.Document, "Refine quad mesh"):
             do("import quadrille.freecad")
-            do(f"quadrille.freecad.refine({path_of(self._mesh)}, {links_text([(self._mesh.Shape, (face,))])}, {float(digits(size))!r})")
+            others = [entry for entry in self._mesh.SizeIn if entry.rpartition("=")[0] != ball.place]
+            do(f"{path_of(self._mesh)}.SizeIn = {[*others, f'{ball.place}={digits(ball.size)}']!r}")
             self._mesh.Document.recompute()
 
     def getStandardButtons(self):

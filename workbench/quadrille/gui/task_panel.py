@@ -25,6 +25,7 @@ from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, pre
                translate)
 from .counting import FAILURES, Counting
 from .element_choice import ElementChoice
+from .element_view import Ball
 from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
@@ -43,6 +44,8 @@ from .wheel import calm
 _POLL_MILLISECONDS = 10
 #: Delay before a standby mesher is started, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
+#: How long a message stays in FreeCAD's status line.
+_MESSAGE_MILLISECONDS = 10000
 #: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
 _SIZE_TO_MINIMUM = 8
 #: The beginning of the mesher's message about smooth edges, which the panel words itself.
@@ -71,6 +74,7 @@ class MeshPanel:
         # A new mesh gets a size, unless the user gives one before it is found.
         self._suggests = bool(made_by) and not mesh.Size
         self._mesh_when_suggested = False
+        self._refined_here = False  # since the mesh was made
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # without the form as parent: it must outlive a form that FreeCAD deletes
@@ -134,7 +138,7 @@ class MeshPanel:
         self.log.setMaximumHeight(80)
         self.log.hide()  # until there is something to say
         self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        self.quality = QualityWidget(self.mesh, self._refine_face)
+        self.quality = QualityWidget(self.mesh, self._refine_here)
         self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
@@ -423,8 +427,12 @@ class MeshPanel:
         if usual is not None:
             self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
 
-    def _refine_face(self, face: str, size: float) -> None:
-        self.refinements.add(links.link(self.mesh.Shape, [face]), float(digits(size)))
+    def _refine_here(self, ball: Ball) -> None:
+        """Adds a size at a place, and shows its row."""
+        self.entries.add("SizeIn", {ball.place: digits(ball.size)})
+        self.form.findChild(QtGui.QToolButton, "QuadrilleRefinements").setChecked(True)
+        self.form.bring(self.entries.select("SizeIn", ball.place))
+        self._refined_here = True
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")
@@ -513,7 +521,7 @@ class MeshPanel:
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self.mesh_button.setEnabled(True)
         self.stop_button.setEnabled(False)
-        ended = time.monotonic()
+        ended, worst_before = time.monotonic(), self.mesh.WorstQuality
         try:
             _, report = job.result()
             with self._session.step("Quad mesh"):
@@ -540,10 +548,20 @@ class MeshPanel:
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
             self.mesh.QuadCount, digits(round(ended - job.started, 2)), digits(round(time.monotonic() - ended, 2))))
+        self._tell_if_worse(worst_before)
         background.show(self.mesh)
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
+
+    def _tell_if_worse(self, before: float) -> None:
+        """Says so if the smallest q fell by a refinement at a place, which may force small elements beside large ones."""
+        refined, self._refined_here = self._refined_here, False
+        worst = f"{self.mesh.WorstQuality:.3f}"
+        if refined and float(worst) < float(f"{before:.3f}"):
+            text = translate("Quadrille", "refined where asked: the smallest q fell from {} to {}").format(f"{before:.3f}", worst)
+            self._say(text)
+            FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.mesh.Label}: {text}", _MESSAGE_MILLISECONDS)
 
     def _show_progress(self, fraction: float, stage: str = "") -> None:
         self.bar.setVisible(True)
