@@ -687,6 +687,14 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>refined where asked: the smallest q fell from {} to {}</source>
         <translation>wie verlangt verfeinert: das kleinste q fiel von {} auf {}</translation>
     </message>
+    <message>
+        <source>Hidden in it, and not meshed: {}</source>
+        <translation>Darin ausgeblendet und nicht vernetzt: {}</translation>
+    </message>
+    <message>
+        <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
+        <translation>{} hat {} Körper, die sich berühren oder schneiden. Dort verbinden (Verschneiden), so dass sie Knoten teilen?</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

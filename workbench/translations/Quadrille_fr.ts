@@ -687,6 +687,14 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>refined where asked: the smallest q fell from {} to {}</source>
         <translation>affiné à l'endroit voulu : le q minimal est passé de {} à {}</translation>
     </message>
+    <message>
+        <source>Hidden in it, and not meshed: {}</source>
+        <translation>Cachés dedans, et non maillés : {}</translation>
+    </message>
+    <message>
+        <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
+        <translation>{} a {} solides qui se touchent ou se coupent. Les relier là (Imprimer), pour qu'ils partagent des nœuds ?</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -27,6 +27,7 @@ from driver import Boxes, click_at, close_panel, find, process, trigger, wait_fo
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
+from quadrille.solvers import checklist
 
 
 def fem_entries():
@@ -341,6 +342,70 @@ class GuiTest(GuiCase):
         mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
         self.assertEqual(mesh.Shape, body)
         close_panel()
+
+    def container(self):
+        """A container, moved, of two boxes that touch, and of a third one that is hidden."""
+        container = self.document.addObject("App::Part", "Container")
+        container.Placement.Base = FreeCAD.Vector(0, 0, 50)
+        for number in range(3):
+            box = self.document.addObject("Part::Box", f"Solid{number}")
+            box.Placement.Base.x = 10 * number
+            container.addObject(box)
+        box.ViewObject.hide()
+        self.document.recompute()
+        self.show()
+        return container
+
+    def mesh_of(self, answer=None):
+        """Triggers the command for the selection; the mesh object, and the questions that were asked."""
+        asked = []
+        with mock.patch.object(commands.MeshCommand, "ask", staticmethod(lambda text: asked.append(text) or answer)):
+            with Boxes() as boxes:
+                trigger("Quadrille_Mesh")
+        self.assertEqual(boxes.texts, [])
+        return [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1], asked
+
+    def test_touching_solids_of_a_container_are_joined(self):
+        container = self.container()
+        compound = self.document.addObject("Part::Compound", "Compound")
+        compound.Links = [self.document.addObject("Part::Box", f"Box{number}") for number in range(2)]
+        compound.Links[1].Placement.Base.x = 10
+        self.document.recompute()
+        for part, is_hidden in ((container, True), (compound, False)):
+            for answer, pieces in ((True, 1), (False, 2)):
+                with self.subTest(part=part.Name, answer=answer):
+                    FreeCADGui.Selection.clearSelection()
+                    FreeCADGui.Selection.addSelection(part)
+                    mesh, asked = self.mesh_of(answer)
+                    self.assertEqual(len(asked), 1)
+                    self.assertIn(f"{part.Label} has 2 solids that touch", asked[0])
+                    self.assertEqual("not meshed: Solid2" in asked[0], is_hidden)
+                    self.press_mesh()
+                    self.assertEqual(checklist.pieces(mesh.FemMesh), pieces)
+                    close_panel(QtGui.QDialogButtonBox.Cancel)
+        container.Group[-2].Placement.Base.x = 15
+        self.document.recompute()
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(container)
+        self.assertEqual(self.mesh_of()[1], [])
+        self.assertIn("not meshed: Solid2", window().statusBar().currentMessage())
+        close_panel(QtGui.QDialogButtonBox.Cancel)
+
+    def test_solids_of_a_container_stay_in_its_scope(self):
+        container = self.container()
+        report = next(view for view in window().findChildren(QtGui.QTextEdit) if "ReportOutput" in view.metaObject().className())
+        report.clear()
+        for name in ("Solid0.", "Solid1."):
+            FreeCADGui.Selection.addSelection(self.document.Name, "Container", name)
+        mesh, asked = self.mesh_of()
+        self.assertEqual(asked, [])
+        self.press_mesh()
+        close_panel()
+        self.document.recompute()
+        process(0.5)
+        self.assertNotIn("scope", report.toPlainText())
+        self.assertIn(mesh.Shape, container.Group)
+        self.assertEqual(checklist.pieces(mesh.FemMesh), 1)
 
     def test_a_click_on_the_mesh_means_the_part(self):
         box = self.box()

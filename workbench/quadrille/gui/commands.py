@@ -14,7 +14,7 @@ from ..core.errors import Error
 from ..core.jobs import find_mesher
 from ..core.setting_table import ORDERS, TABLES, default_size
 from ..core.units import digits
-from ..document import picks, regions
+from ..document import containers, picks, regions
 from ..document.groups import analysis_of
 from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
@@ -27,6 +27,8 @@ from .mesh_clicks import picked
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
+#: How long a message stays in FreeCAD's status line.
+_MESSAGE_MILLISECONDS = 10000
 #: The file formats that the mesher writes, for the file dialog, which shows the first.
 FORMATS = {row["name"]: row["ending"][1:] for row in sorted(TABLES["formats"], key=lambda row: bool(row["ending"] != ".inp"))
            if row["written"]}
@@ -152,10 +154,31 @@ class MeshCommand(_Command):
             core.check_part(part, analysis)
         find_mesher()
         do("import quadrille.freecad")
+        settings = dict(preferences.settings())
+        if len(selected) == 1 and self._joins(selected[0]):
+            settings["imprint"] = True
         part = _one_part(selected)
         # The mesh object's panel finds a size.
-        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(preferences.settings(), analysis)})")
+        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(settings, analysis)})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
+
+    def _joins(self, part) -> bool:
+        """Asks whether to join the solids of a container or compound where they touch. Tells which ones in it are hidden."""
+        hidden = ", ".join(obj.Label for obj in containers.hidden_solids(part))
+        told = translate("Quadrille", "Hidden in it, and not meshed: {}").format(hidden) if hidden else ""
+        touching = containers.touching_solids(part.Shape)
+        if touching:
+            question = translate("Quadrille", "{} has {} solids that touch or cross. Join them there (Imprint), so that they share "
+                                 "nodes?").format(part.Label, touching)
+            return self.ask("\n\n".join(filter(None, (question, told))))
+        if told:
+            text = f"{part.Label}: {told}"
+            FreeCAD.Console.PrintWarning(text + "\n")
+            FreeCADGui.getMainWindow().statusBar().showMessage(text, _MESSAGE_MILLISECONDS)
+        return False
+
+    #: Asks a yes-or-no question in a message box.
+    ask = staticmethod(middle_search.ask)
 
     def afterwards(self) -> None:
         if self._edit is None:

@@ -29,7 +29,7 @@ class ElementView(QtGui.QWidget):
     def __init__(self, mesh, measured: Callable[[], quality.ElementQuality], refine: Callable[[Ball], None]) -> None:
         super().__init__()
         self._mesh, self._measured = mesh, measured
-        self._ball: Optional[Ball] = None
+        self._ball = Ball("", 0.0)
         self._groups: Optional[groups.PartGroups] = None
         self.text = QtGui.QLabel()
         self.text.setObjectName("QuadrilleElement")
@@ -37,7 +37,7 @@ class ElementView(QtGui.QWidget):
         self.refine = QtGui.QPushButton(translate("Quadrille", "Refine here"))
         self.refine.setObjectName("QuadrilleRefineHere")
         self.refine.setToolTip(translate("Quadrille", "Half the size of the element, in a ball three elements wide around it"))
-        self.refine.clicked.connect(lambda *_: refine(self._ball) if self._ball is not None else None)
+        self.refine.clicked.connect(lambda *_: refine(self._ball))
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.text)
