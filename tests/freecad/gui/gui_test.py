@@ -591,9 +591,32 @@ class GuiTest(GuiCase):
     # Bad use: one clear message, the document unharmed
 
     def test_nothing_selected(self):
-        self.box()
+        box = self.box()
+        names = ("Quadrille_Mesh", "Quadrille_Middle", "Quadrille_Surface", "Quadrille_Refine")
+
+        def enabled(wanted):
+            process(0.5)  # FreeCAD updates what is enabled by a timer
+            return all(FreeCADGui.Command.get(name).getAction()[0].isEnabled() == wanted for name in names)
+
         FreeCADGui.Selection.clearSelection()
-        self.assertIn("select one part", self.message("Quadrille_Mesh"))
+        wait_for(lambda: enabled(False), 20, "gray buttons")
+        FreeCADGui.Selection.addSelection(box)
+        wait_for(lambda: enabled(True), 20, "buttons")
+
+    def test_the_toolbar_in_fem_is_the_last(self):
+        def bars():
+            process(0.5)
+            return [bar.objectName() for bar in sorted((bar for bar in window().findChildren(QtGui.QToolBar) if bar.isVisible()),
+                                                       key=lambda bar: (bar.y(), bar.x()))]
+
+        for workbench, ours in (("FemWorkbench", "QuadrilleInFem"), ("PartWorkbench", ""), ("QuadrilleWorkbench", "Quadrille"),
+                                ("FemWorkbench", "QuadrilleInFem")):
+            FreeCADGui.activateWorkbench(workbench)
+            found = bars()
+            self.assertEqual([name for name in found if "Quadrille" in name], [ours] if ours else [], workbench)
+            if ours:
+                self.assertEqual(found[-1], ours, workbench)
+        picture("toolbar_in_fem")
 
     def test_a_part_without_faces(self):
         line = self.document.addObject("Part::Feature", "Line")

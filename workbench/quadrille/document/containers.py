@@ -4,7 +4,7 @@ window."""
 
 import time
 from itertools import combinations
-from typing import List
+from typing import List, Set
 
 #: Seconds after which looking for solids that touch ends.
 _PATIENCE = 2.0
@@ -22,7 +22,7 @@ def touching_solids(shape) -> int:
     for box in boxes:
         box.enlarge(reach)
     faces = [{face.hashCode() for face in solid.Faces} for solid in solids]
-    found = set()
+    found: Set[int] = set()
     for one, other in combinations(range(len(solids)), 2):
         if {one, other} <= found or not boxes[one].intersect(boxes[other]) or faces[one] & faces[other]:
             continue

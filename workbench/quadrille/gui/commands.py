@@ -90,6 +90,7 @@ class _Command:
 
     name = text = tip = pixmap = accelerator = ""
     step = ""  #: name of the undo step; empty = none
+    selects = False  #: whether it needs a selection
 
     def GetResources(self) -> dict:
         """FreeCAD asks for text and icon, and translates the texts by the command's name."""
@@ -97,8 +98,9 @@ class _Command:
                 "Accel": self.accelerator}
 
     def IsActive(self) -> bool:
-        """True if a document is open, and no task panel."""
-        return FreeCAD.ActiveDocument is not None and not FreeCADGui.Control.activeDialog()
+        """True if a document is open, and no task panel; and something is selected, if the command needs that."""
+        return FreeCAD.ActiveDocument is not None and not FreeCADGui.Control.activeDialog() and (
+            not self.selects or bool(FreeCADGui.Selection.getSelection()))
 
     def Activated(self, _index: int = 0) -> None:
         """FreeCAD calls this when the command is clicked."""
@@ -134,6 +136,7 @@ class MeshCommand(_Command):
     pixmap = "quadrille_mesh"
     accelerator = "Q, M"
     step = "Create quad mesh"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -199,6 +202,7 @@ class MiddleCommand(_Command):
     pixmap = "quadrille_middle"
     accelerator = "Q, I"
     step = "Create middle surface"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -233,6 +237,7 @@ class SurfaceCommand(_Command):
     pixmap = "quadrille_surface"
     accelerator = "Q, S"
     step = "Create quad mesh from mesh"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -291,6 +296,7 @@ class RefineCommand(_Command):
     accelerator = "Q, R"
     pixmap = "quadrille_refine"
     step = "Refine quad mesh"
+    selects = True
 
     def run(self) -> None:
         mesh = mesh_in_question()
