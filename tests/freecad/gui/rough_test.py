@@ -164,7 +164,7 @@ class RoughTest(GuiCase):
         self.delete("Box")
         self.let_go()
         self.assert_sound(mesh, PART_GONE)
-        self.assertIn("is gone", find("QuadrilleEstimate").text())
+        self.assertIn("is gone", find("QuadrilleEstimateError").text())
         find("QuadrilleRefinements").setChecked(True)
         for name in ("QuadrilleMesh", "QuadrilleSuggest", "QuadrilleTakeSelection", "QuadrilleAddRefinement", "QuadrilleDivide"):
             self.assertIn("the part that it meshes is gone", self.told(name))
@@ -500,7 +500,7 @@ class RoughTest(GuiCase):
         self.open_panel(self.box())
         self.begin()
         escape = QtGui.QKeyEvent(QtCore.QEvent.KeyPress, QtCore.Qt.Key_Escape, QtCore.Qt.NoModifier)
-        QtGui.QApplication.sendEvent(find("QuadrilleLog"), escape)
+        QtGui.QApplication.sendEvent(find("QuadrilleScrolled"), escape)
         process(0.2)
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
 

@@ -13,6 +13,7 @@ from PySide import QtCore, QtGui
 from ..core.errors import Error
 from ..features import mesh_object as core
 from . import do, path_of, tell, transaction, translate
+from .stages import words_of
 
 _POLL_MILLISECONDS = 50
 _MESSAGE_MILLISECONDS = 10000
@@ -82,7 +83,7 @@ class _Run:
 
     def _show(self, stage: str, fraction: float) -> None:
         self._bar.setValue(round(100 * fraction))
-        self._bar.setFormat(f"{self._mesh.Label}: {stage} %p %")
+        self._bar.setFormat(f"{self._mesh.Label}: {words_of(stage)} %p %")
 
     def _stop(self, *_) -> None:
         if self._job.running:

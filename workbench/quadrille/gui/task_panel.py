@@ -24,6 +24,8 @@ from ..solvers import element_types, results
 from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, preferences, progress_bar, standard_buttons, tell,
                translate)
 from .counting import FAILURES, Counting
+from .element_choice import ElementChoice
+from .element_view import Ball
 from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
@@ -35,18 +37,23 @@ from .scrolled import Scrolled
 from .session import Session
 from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
+from .stages import words_of
 from .thin_hint import thin_hint
 from .wheel import calm
 
 _POLL_MILLISECONDS = 10
 #: Delay before a standby mesher is started, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
+#: How long a message stays in FreeCAD's status line.
+_MESSAGE_MILLISECONDS = 10000
 #: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
 _SIZE_TO_MINIMUM = 8
 #: The beginning of the mesher's message about smooth edges, which the panel words itself.
 _CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
+#: Stands for the field that an error concerns if it concerns none: it is shown below the expected number.
+_NO_FIELD = ""
 
 
 class MeshPanel:
@@ -67,6 +74,7 @@ class MeshPanel:
         # A new mesh gets a size, unless the user gives one before it is found.
         self._suggests = bool(made_by) and not mesh.Size
         self._mesh_when_suggested = False
+        self._refined_here = False  # since the mesh was made
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # without the form as parent: it must outlive a form that FreeCAD deletes
@@ -92,8 +100,9 @@ class MeshPanel:
         self.settings = setting_widgets()
         self.suggest = _button("QuadrilleSuggest", translate("Quadrille", "Suggest"),
                                translate("Quadrille", "The size that gives about {} elements").format(preferences.suggested_quads()))
-        self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "Take"),
+        self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "From selection"),
                                       translate("Quadrille", "Mesh only the faces that are selected in the 3-D view"))
+        self.element = ElementChoice()
         self.surfaces = QtGui.QCheckBox(translate("Quadrille", "Stresses at the surfaces"))
         self.surfaces.setObjectName("QuadrilleSurfaces")
         self.surfaces.setToolTip(translate(
@@ -102,6 +111,7 @@ class MeshPanel:
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
+        self.estimate_error = FieldError("Estimate")
         self.by_face = FaceCounts(self.mesh)
         self.refinements = RefinementList(self._refine_selection, lambda: self._changed("Refinements"))
         self.refinements_error, self.entries_error = FieldError("Refinements"), FieldError("Entries")
@@ -118,12 +128,17 @@ class MeshPanel:
         self.show_other.clicked.connect(lambda *_: mesh_clicks.toggle(self.mesh))
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
+        policy = self.bar.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)  # the buttons above do not move when it appears
+        self.bar.setSizePolicy(policy)
+        self.bar.hide()
         self.log = QtGui.QPlainTextEdit()
         self.log.setObjectName("QuadrilleLog")
         self.log.setReadOnly(True)
         self.log.setMaximumHeight(80)
+        self.log.hide()  # until there is something to say
         self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        self.quality = QualityWidget(self.mesh, self._refine_face)
+        self.quality = QualityWidget(self.mesh, self._refine_here)
         self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
@@ -144,7 +159,7 @@ class MeshPanel:
             (basic if name in _IN_SIGHT else more).addRow(setting.label, below(widget, setting.error))
         if self._solvers():
             basic.addRow(self.surfaces)
-        basic.addRow(translate("Quadrille", "Expected"), self.estimate)
+        basic.addRow(translate("Quadrille", "Expected"), below(self.estimate, self.estimate_error))
         layout = QtGui.QVBoxLayout(self.form.content)
         if is_missing():
             choice = MesherChoice(lambda _command: choice.hide())
@@ -152,7 +167,7 @@ class MeshPanel:
         self._hint = QtGui.QVBoxLayout()
         layout.addLayout(self._hint)
         layout.addLayout(basic)
-        layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
+        layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False, self.by_face.open))
         layout.addWidget(self.preview)
         layout.addWidget(self.show_other)
         layout.addWidget(self.log)
@@ -164,10 +179,12 @@ class MeshPanel:
         rows.addWidget(below(self.entries, self.entries_error))
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
                                any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
+        more.addRow(translate("Quadrille", "Elements"), self.element)
         holder = QtGui.QWidget()
         holder.setLayout(more)
+        is_plain_shell = self.mesh.Element == element_types.SHELL
         changed = any(name not in _IN_SIGHT and getattr(self.mesh, name) != default
-                      for name, default in core.defaults().items() if name in self.settings)
+                      for name, default in core.defaults().items() if name in self.settings) or not is_plain_shell
         layout.addWidget(refinements)
         layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
         layout.addWidget(self.quality)
@@ -182,6 +199,7 @@ class MeshPanel:
         for name, setting in self.settings.items():
             value = wanted.values[name]
             setting.show(links.names_in(value) if name in links.OWN else value)
+        self.element.show_element(self.mesh.Element)
         self.follows.setVisible(bool(wanted.values[state.ADAPTED]))
         self.follows.setChecked(wanted.values[state.FOLLOWS])
         self.entries.show_all(wanted.values)
@@ -234,6 +252,8 @@ class MeshPanel:
                 lines.append(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
             elif size != sizes.get(region, size):  # a region that was deleted meanwhile stays deleted
                 lines.append(f"{path_of(mesh.Document.getObject(region))}.CharacteristicLength = {size!r}")
+        if self.element.element() != mesh.Element:
+            lines.append(f"{path_of(mesh)}.Element = {self.element.element()!r}")
         surfaces = self.surfaces.isChecked()
         lines += [f"{path_of(solver)}.{results.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
                   if getattr(solver, results.SURFACE_RESULTS) != surfaces]
@@ -259,7 +279,7 @@ class MeshPanel:
 
     def _changed(self, *names: str) -> None:
         """Called when a field has changed, or one of several: what the mesher said about it no longer holds."""
-        for name in names:
+        for name in (*names, _NO_FIELD):
             self._refused.pop(name, None)
         if "Size" in names:
             self._suggests = False
@@ -272,12 +292,25 @@ class MeshPanel:
             error: the error when all fields were used together.
         """
         sentences = dict(self._refused)
-        if isinstance(error, Error):
+        if error is not None:
             sentences[self._field_of(error)] = str(error)
         for name, setting in self.settings.items():
             setting.error.tell(self._wrong_in(name) or sentences.get(name, ""))
         self.refinements_error.tell(sentences.get("Refinements", ""))
         self.entries_error.tell("\n".join(sentences[name] for name in ENTRIES if name in sentences))
+        self.estimate_error.tell(sentences.get(_NO_FIELD, ""))
+
+    def _point_out(self, error: Error) -> bool:
+        """Scrolls to the field that an error concerns, where it stands in red; opens the section around it. False if it concerns no
+        field."""
+        name = self._field_of(error)
+        if name == _NO_FIELD:
+            return False
+        if name not in _IN_SIGHT:
+            self.form.findChild(QtGui.QToolButton, "QuadrilleMore" if name in self.settings else "QuadrilleRefinements").setChecked(True)
+        self.form.bring(self.settings[name].error if name in self.settings else
+                        self.refinements_error if name == "Refinements" else self.entries_error)
+        return True
 
     def _wrong_in(self, name: str) -> str:
         """What is wrong with a field by itself."""
@@ -289,10 +322,13 @@ class MeshPanel:
             return str(error)
         return ""
 
-    def _field_of(self, error: Error) -> str:
-        """The property that an error concerns; "Refinements" for all of these; else what the error says itself."""
+    def _field_of(self, error: Exception) -> str:
+        """The property that an error concerns, if it has a field here; "Refinements" for all of these; else _NO_FIELD."""
+        subject = getattr(error, "subject", "")
         regions = {entry.region for entry in state.wanted_of(self.mesh).refinements if entry.region}
-        return "Refinements" if error.subject in regions else error.subject
+        if subject in regions:
+            return "Refinements"
+        return subject if subject in self.settings or subject in ENTRIES or subject == "Refinements" else _NO_FIELD
 
     def _show_minimum(self) -> None:
         """Shows the minimum size that holds where none is given: it follows the size."""
@@ -314,19 +350,17 @@ class MeshPanel:
             shapes.check_size(shape, (self._usual_size(), *settings.get("sizes", {}).values()))
         except FAILURES as error:
             self._counting.release()
-            self._show_count_or(str(error))
-            self._show_errors(error)
+            self._show_no_count(error)
             return
         self._show_status(wanted, found)
-        self.estimate.setText("...")
+        self.estimate.setText(f"{self.estimate.text().rstrip('. –')} ...".lstrip())  # what follows does not jump
         self._counting.ask(shape, settings, preferences.suggested_quads() if self._suggests else 0)
 
     def _counted(self, count: Optional[Count], problem: Optional[Exception]) -> None:
         """Called when the quads are counted, or cannot be."""
         if count is None:
             self._suggests = False
-            self._show_count_or(str(problem))
-            self._show_errors(problem)
+            self._show_no_count(problem)
         else:
             if self._suggests:
                 self._take_suggestion(count.size)
@@ -343,9 +377,11 @@ class MeshPanel:
         self.settings["Size"].show(size)
         self._show_minimum()
 
-    def _show_count_or(self, problem: str) -> None:
+    def _show_no_count(self, problem: Optional[Exception]) -> None:
+        """Shows that there is no count, and why: at the field concerned, or here."""
         self.by_face.show_counts({})
-        self.estimate.setText(problem)
+        self.estimate.setText("–")
+        self._show_errors(problem)
 
     def _show_status(self, wanted: state.Wanted, found) -> None:
         """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
@@ -391,8 +427,12 @@ class MeshPanel:
         if usual is not None:
             self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
 
-    def _refine_face(self, face: str, size: float) -> None:
-        self.refinements.add(links.link(self.mesh.Shape, [face]), float(digits(size)))
+    def _refine_here(self, ball: Ball) -> None:
+        """Adds a size at a place, and shows its row."""
+        self.entries.add("SizeIn", {ball.place: digits(ball.size)})
+        self.form.findChild(QtGui.QToolButton, "QuadrilleRefinements").setChecked(True)
+        self.form.bring(self.entries.select("SizeIn", ball.place))
+        self._refined_here = True
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")
@@ -442,15 +482,16 @@ class MeshPanel:
             return
         self.mesh_button.setEnabled(True)
         self.log.clear()
+        self.log.hide()
         self._refused.clear()
         self._show_errors()
         try:
             self._job_wanted = self._wanted()
             job = core.start(self.mesh, wanted=self._job_wanted)
         except Error as error:
-            self._say(str(error))
             self._show_errors(error)
-            tell(str(error))
+            if not self._point_out(error):
+                tell(str(error))
             return
         self._follow(job)
 
@@ -480,7 +521,7 @@ class MeshPanel:
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self.mesh_button.setEnabled(True)
         self.stop_button.setEnabled(False)
-        ended = time.monotonic()
+        ended, worst_before = time.monotonic(), self.mesh.WorstQuality
         try:
             _, report = job.result()
             with self._session.step("Quad mesh"):
@@ -489,10 +530,15 @@ class MeshPanel:
         except Error as error:
             core.forget(self._document_name, self._name)
             self._show_progress(0)
-            self._say(str(error))
+            self.bar.hide()
+            self.log.clear()
+            if error.kind == "cancelled":
+                self._say(str(error))
+                return
+            self.log.hide()
             self._refused[self._field_of(error)] = str(error)
             self._show_errors()
-            if error.kind != "cancelled":
+            if not self._point_out(error):
                 tell(str(error))
             return
         self.preview.button.setChecked(False)
@@ -502,15 +548,26 @@ class MeshPanel:
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
             self.mesh.QuadCount, digits(round(ended - job.started, 2)), digits(round(time.monotonic() - ended, 2))))
+        self._tell_if_worse(worst_before)
         background.show(self.mesh)
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
+    def _tell_if_worse(self, before: float) -> None:
+        """Says so if the smallest q fell by a refinement at a place, which may force small elements beside large ones."""
+        refined, self._refined_here = self._refined_here, False
+        worst = f"{self.mesh.WorstQuality:.3f}"
+        if refined and float(worst) < float(f"{before:.3f}"):
+            text = translate("Quadrille", "refined where asked: the smallest q fell from {} to {}").format(f"{before:.3f}", worst)
+            self._say(text)
+            FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.mesh.Label}: {text}", _MESSAGE_MILLISECONDS)
+
     def _show_progress(self, fraction: float, stage: str = "") -> None:
+        self.bar.setVisible(True)
         self.bar.setUpdatesEnabled(False)  # a new value would repaint at once, and Qt would redraw the whole window
         self.bar.setValue(round(100 * fraction))
-        self.bar.setFormat(f"{stage} %p %".lstrip())
+        self.bar.setFormat(f"{words_of(stage)} %p %".lstrip())
         self.bar.setUpdatesEnabled(True)
 
     def _stand_by(self) -> None:
@@ -524,6 +581,7 @@ class MeshPanel:
 
     def _say(self, text: str) -> None:
         self.log.appendPlainText(text)
+        self.log.setVisible(True)
 
     # Opening and closing
 
@@ -541,7 +599,9 @@ class MeshPanel:
             # If the part has been deleted meanwhile, there is nothing to set.
             lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
-            tell(str(error))
+            self._show_errors(error)
+            if not self._point_out(error):
+                tell(str(error))
             return False
         if lines:
             with self._session.step("Quad mesh settings"):
@@ -648,8 +708,12 @@ def _form():
     return form
 
 
-def _section(name: str, title: str, content, is_open: bool):
-    """A section: content below a title that opens and closes it."""
+def _section(name: str, title: str, content, is_open: bool, show_content: Optional[Callable[[bool], None]] = None):
+    """A section: content below a title that opens and closes it.
+
+    Args:
+        show_content: shows or hides the content, if there is more to it.
+    """
     section = QtGui.QWidget()
     head = QtGui.QToolButton()
     head.setObjectName(name)
@@ -660,7 +724,7 @@ def _section(name: str, title: str, content, is_open: bool):
 
     def show(on: bool) -> None:
         head.setArrowType(QtCore.Qt.DownArrow if on else QtCore.Qt.RightArrow)
-        content.setVisible(on)
+        (show_content or content.setVisible)(on)
 
     head.toggled.connect(show)
     show(is_open)
