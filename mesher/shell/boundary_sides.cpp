@@ -92,6 +92,7 @@ std::optional<std::pair<int, int>> crowded_side(const std::vector<int>& nodes,
   std::unordered_map<int, int> first;
   std::vector<int> point(nodes.size());
   for (int i = 0; i < fixed; ++i) point[i] = first.emplace(nodes[i], i).first->second;
+  if (first.size() == nodes.size()) return std::nullopt;  // there is no seam
   std::unordered_map<std::uint64_t, int> uses;
   for (const auto& quad : quads)
     for (std::size_t k = 0; k < 4; ++k) {

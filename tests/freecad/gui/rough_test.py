@@ -339,6 +339,12 @@ class RoughTest(GuiCase):
         self.assertTrue(find("QuadrilleBackground").isVisible())
         return mesh
 
+    def let_it_wait(self):
+        """The mesher of go_on() ends, and its mesh waits until it can be stored."""
+        self.gate.unlink()
+        bar = find("QuadrilleBackground")
+        wait_for(lambda: "waits" in bar.format(), what="the end")
+
     def come_to_its_end(self):
         """The mesher of go_on() goes on, and its mesh is stored."""
         self.gate.unlink()
@@ -428,9 +434,7 @@ class RoughTest(GuiCase):
         cylinder = self.document.addObject("Part::Cylinder", "Cylinder")
         self.document.recompute()
         self.open_panel(cylinder)
-        self.gate.unlink()
-        bar = find("QuadrilleBackground")
-        wait_for(lambda: "waits" in bar.format(), what="the end")
+        self.let_it_wait()
         self.assertEqual(mesh.FemMesh.FaceCount, 0)
         close_panel(CANCEL)
         wait_for(lambda: not background._runs, what="the mesh")
@@ -441,9 +445,7 @@ class RoughTest(GuiCase):
         mesh = self.go_on()
         self.document.openTransaction("Another")
         self.document.Box.Label = "Renamed"
-        self.gate.unlink()
-        bar = find("QuadrilleBackground")
-        wait_for(lambda: "waits" in bar.format(), what="the end")
+        self.let_it_wait()
         self.assertEqual(mesh.FemMesh.FaceCount, 0)
         self.document.abortTransaction()
         wait_for(lambda: not background._runs, what="the mesh")
@@ -455,9 +457,7 @@ class RoughTest(GuiCase):
         mesh = self.go_on()
         self.document.openTransaction("Another")
         self.document.Box.Label = "Renamed"
-        self.gate.unlink()
-        bar = find("QuadrilleBackground")
-        wait_for(lambda: "waits" in bar.format(), what="the end")
+        self.let_it_wait()
         find("QuadrilleBackgroundStop").click()
         self.assert_no_bar()
         self.document.commitTransaction()

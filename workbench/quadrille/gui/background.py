@@ -12,11 +12,10 @@ from PySide import QtCore, QtGui
 
 from ..core.errors import Error
 from ..features import mesh_object as core
-from . import do, path_of, tell, transaction, translate
+from . import do, path_of, tell, tell_briefly, transaction, translate
 from .stages import words_of
 
 _POLL_MILLISECONDS = 50
-_MESSAGE_MILLISECONDS = 10000
 #: The runs, by the names of document and mesh object.
 _runs: Dict[Tuple[str, str], "_Run"] = {}
 
@@ -113,7 +112,7 @@ class _Run:
         show(self._mesh)
         text = translate("Quadrille", "{}: {} quads").format(self._mesh.Label, self._mesh.QuadCount)
         FreeCAD.Console.PrintMessage("\n".join((text, *self._job.messages)) + "\n")
-        FreeCADGui.getMainWindow().statusBar().showMessage(text, _MESSAGE_MILLISECONDS)
+        tell_briefly(text)
 
     def _abandon(self) -> None:
         """Ends the run, without a result."""

@@ -21,14 +21,12 @@ from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
-               progress_bar, tell, transaction, translate, views)
+               progress_bar, tell, tell_briefly, transaction, translate, views)
 from .length_field import LengthField
 from .mesh_clicks import picked
 
 TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
-#: How long a message stays in FreeCAD's status line.
-_MESSAGE_MILLISECONDS = 10000
 #: The file formats that the mesher writes, for the file dialog, which shows the first.
 FORMATS = {row["name"]: row["ending"][1:] for row in sorted(TABLES["formats"], key=lambda row: bool(row["ending"] != ".inp"))
            if row["written"]}
@@ -177,7 +175,7 @@ class MeshCommand(_Command):
         if told:
             text = f"{part.Label}: {told}"
             FreeCAD.Console.PrintWarning(text + "\n")
-            FreeCADGui.getMainWindow().statusBar().showMessage(text, _MESSAGE_MILLISECONDS)
+            tell_briefly(text)
         return False
 
     #: Asks a yes-or-no question in a message box.

@@ -32,7 +32,8 @@ class Scrolled(QtGui.QWidget):
         self._bringing = QtCore.QTimer(self)  # ends with the panel
         self._bringing.setSingleShot(True)
         self._bringing.setInterval(0)
-        self._bringing.timeout.connect(self._fit)
+        self._bringing.timeout.connect(lambda: self._area.ensureWidgetVisible(self._brought, 0, 30))
+        self._brought: Optional[QtGui.QWidget] = None
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._area, 1)
@@ -41,8 +42,7 @@ class Scrolled(QtGui.QWidget):
 
     def bring(self, widget) -> None:
         """Scrolls to a widget of the upper part, once it has its place."""
-        self._bringing.timeout.disconnect()
-        self._bringing.timeout.connect(lambda: self._area.ensureWidgetVisible(widget, 0, 30))
+        self._brought = widget
         self._bringing.start()
 
     def showEvent(self, event) -> None:

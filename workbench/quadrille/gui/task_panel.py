@@ -22,7 +22,7 @@ from ..features import mesh_object as core
 from ..features.sizes import Count
 from ..solvers import element_types, results
 from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, preferences, progress_bar, standard_buttons, tell,
-               translate)
+               tell_briefly, translate)
 from .counting import FAILURES, Counting
 from .element_choice import ElementChoice
 from .element_view import Ball
@@ -44,8 +44,6 @@ from .wheel import calm
 _POLL_MILLISECONDS = 10
 #: Delay before a standby mesher is started, after opening and after meshing, which it would slow down.
 _STAND_BY_MILLISECONDS = 500
-#: How long a message stays in FreeCAD's status line.
-_MESSAGE_MILLISECONDS = 10000
 #: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
 _SIZE_TO_MINIMUM = 8
 #: The beginning of the mesher's message about smooth edges, which the panel words itself.
@@ -561,7 +559,7 @@ class MeshPanel:
         if refined and float(worst) < float(f"{before:.3f}"):
             text = translate("Quadrille", "refined where asked: the smallest q fell from {} to {}").format(f"{before:.3f}", worst)
             self._say(text)
-            FreeCADGui.getMainWindow().statusBar().showMessage(f"{self.mesh.Label}: {text}", _MESSAGE_MILLISECONDS)
+            tell_briefly(f"{self.mesh.Label}: {text}")
 
     def _show_progress(self, fraction: float, stage: str = "") -> None:
         self.bar.setVisible(True)
