@@ -117,11 +117,12 @@ void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
 
 }  // namespace
 
-void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out) {
+void write_bdf(const Writing& writing, TextWriter& out) {
+  const OutputMesh& mesh = writing.output;
   constexpr std::size_t largest_number = 99'999'999;  // the largest number in 8 columns
   if (mesh.nodes().size() > largest_number || static_cast<std::size_t>(mesh.shell_count()) > largest_number)
     throw failure(".bdf", "the mesh has more nodes or elements than .bdf files can number");
-  out << "$ " << options.title << "\nCEND\n";
+  out << "$ " << writing.options.title << "\nCEND\n";
   write_sets(mesh, out);
   out << "BEGIN BULK\n";
   write_properties(mesh, out);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "mesher/io/plane_mesh.hpp"
 #include "mesher/io/segment_sides.hpp"
 #include "mesher/io/writers.hpp"
 
@@ -26,23 +27,12 @@ void write_list(const std::vector<int>& numbers, TextWriter& out) {
   }
 }
 
-std::string_view element_type(const OutputMesh& mesh, InpElement element, bool quad) {
-  if (!quad) {
-    switch (family_of(element)) {
-      case InpFamily::shell:
-        return "S3";
-      case InpFamily::plane_stress:
-        return "CPS3";
-      case InpFamily::plane_strain:
-        return "CPE3";
-      case InpFamily::axisymmetric:
-        return "CAX3";
-      case InpFamily::membrane:
-        return "M3D3";
-    }
-  }
+/// The type of the quads, or that of the same family for triangles.
+std::string element_type(const OutputMesh& mesh, InpElement element, bool quad) {
+  const bool shell = family_of(element) == InpFamily::shell;
+  if (!quad) return shell ? "S3" : std::string(name_of(element).substr(0, 3)) + '3';
   if (element == InpElement::shell) return mesh.order() == 2 ? "S8R" : "S4";
-  return name_of(element);
+  return std::string(name_of(element));
 }
 
 /// Names of sets for Abaqus and CalculiX, which ignore case and tell sets of one kind apart only by their
@@ -231,10 +221,9 @@ void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
   for (const auto& [node, thickness] : nodes) out << node << ", " << fmt::format("{:.6g}\n", thickness);
 }
 
-}  // namespace
-
-void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::string& comment,
-               TextWriter& out) {
+/// \param comment a line for readers of the file; empty = none.
+void write_text(const OutputMesh& mesh, const WriteOptions& options, const std::string& comment,
+                TextWriter& out) {
   check_membrane(mesh, options.element);
   // A title that starts with an asterisk would be read as a keyword.
   const bool like_card = options.title.find_first_not_of(' ') == options.title.find('*');
@@ -257,6 +246,15 @@ void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::s
   // Plane and axisymmetric elements are loaded on their sides.
   if (!lies_in_plane(options.element)) write_surfaces(mesh, names, out);
   write_sections(mesh, options.element, out);
+}
+
+}  // namespace
+
+void write_inp(const Writing& writing, TextWriter& out) {
+  const WriteOptions& options = writing.options;
+  if (!lies_in_plane(options.element)) return write_text(writing.output, options, "", out);
+  const PlaneMesh plane = in_plane(writing.mesh, options.element, writing.path.string());
+  write_text(OutputMesh(plane.mesh, options.groups), options, plane.turn, out);
 }
 
 }  // namespace quadrille

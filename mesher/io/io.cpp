@@ -19,7 +19,6 @@
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/io/modules.hpp"
-#include "mesher/io/plane_mesh.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/writers.hpp"
 #include "mesher/mesh/quality.hpp"
@@ -27,40 +26,6 @@
 namespace quadrille {
 
 namespace {
-
-/// A mesh on its way into a file.
-struct Writing {
-  const ShellMesh& mesh;
-  const OutputMesh& output;  ///< the same mesh, in the coordinates of the model
-  const std::filesystem::path& path;
-  const WriteOptions& options;
-};
-
-void write_msh(const Writing& writing, TextWriter& out) {
-  if (writing.options.msh_version == MshVersion::v4_1)
-    write_msh4(writing.output, out);
-  else
-    write_msh2(writing.output, out);
-}
-
-void write_inp(const Writing& writing, TextWriter& out) {
-  const WriteOptions& options = writing.options;
-  if (!lies_in_plane(options.element)) return write_inp(writing.output, options, "", out);
-  const PlaneMesh plane = in_plane(writing.mesh, options.element, writing.path.string());
-  write_inp(OutputMesh(plane.mesh, options.groups), options, plane.turn, out);
-}
-
-void write_unv(const Writing& writing, TextWriter& out) {
-  write_unv(writing.output, out);
-}
-
-void write_bdf(const Writing& writing, TextWriter& out) {
-  write_bdf(writing.output, writing.options, out);
-}
-
-void write_vtk(const Writing& writing, TextWriter& out) {
-  write_vtk(writing.output, writing.options, quad_qualities(writing.mesh), out);
-}
 
 /// Writes a file by a function that writes text, with the threads of the options.
 template <void (*write)(const Writing&, TextWriter&)>
@@ -216,7 +181,7 @@ void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const 
 }
 
 void write_picture(const ShellMesh& mesh, const std::filesystem::path& path, int width, int height) {
-  write_file(path, vtk_picture(mesh, width, height));
+  write_file(path, vtk_picture(mesh, quad_qualities(mesh), width, height));
 }
 
 void write_sizes_vtu(const SizeMap& map, const std::filesystem::path& path) {

@@ -13,7 +13,7 @@ using MPI_Info = void*;
 #include <string>
 
 #include "geometry/base/error.hpp"
-#include "mesher/io/module_export.hpp"
+#include "geometry/base/module_loader.hpp"
 #include "mesher/io/modules.hpp"
 
 namespace quadrille {

@@ -1,44 +1,18 @@
-/// Calls the functions of each module by their symbols and turns the problems that they return into errors.
+/// Opens each module once, and writes .med files in a child process.
 
 #include "mesher/io/modules.hpp"
 
 #include <exception>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/isolated_work.hpp"
-#include "geometry/base/module_loader.hpp"
-#include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
-
-namespace {
-
-const Module& vtk_module(std::string_view ending = ".vtu") {
-  require_library(Library::vtk, ending);
-  static const Module module("quadrille_vtk");
-  return module;
-}
-
-const Module& picture_module() {
-  require_library(Library::pictures, ".png");
-  static const Module module("quadrille_picture");
-  return module;
-}
-
-const Module& med_module() {
-  require_library(Library::med, ".med");
-  static const Module module("quadrille_med");
-  return module;
-}
-
-void check(const std::string& problem) {
-  if (!problem.empty()) throw failure("", problem);
-}
-
-}  // namespace
 
 void require_library(Library library, std::string_view ending) {
   constexpr bool has[] = {true, QUADRILLE_HAS_VTK, QUADRILLE_HAS_PICTURES, QUADRILLE_HAS_MED};
@@ -47,62 +21,32 @@ void require_library(Library library, std::string_view ending) {
                                                      ending, library == Library::med ? "libmed" : "VTK"));
 }
 
-std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities) {
-  std::string bytes;
-  check(vtk_module().function<VtkFileFunction>("_file")(mesh, qualities, bytes));
-  return bytes;
-}
-
-std::string vtk_picture(const ShellMesh& mesh, int width, int height) {
-  std::string bytes;
-  check(
-      picture_module().function<PictureFunction>("_draw")(mesh, quad_qualities(mesh), width, height, bytes));
-  return bytes;
-}
-
-std::string vtu_sizes(const SizeMap& map) {
-  std::string bytes;
-  check(vtk_module().function<VtkSizesFunction>("_sizes")(map, bytes));
-  return bytes;
-}
-
-std::string size_picture(const SizeMap& map, int width, int height) {
-  std::string bytes;
-  check(picture_module().function<SizePictureFunction>("_sizes")(map, width, height, bytes));
-  return bytes;
-}
-
-ImportedMesh vtk_mesh(const std::string& path, const std::string& ending) {
-  ImportedMesh mesh;
-  check(vtk_module(ending).function<VtkReadFunction>("_read")(path, ending, mesh));
-  return mesh;
-}
-
-SolverResult vtk_result(const std::string& path) {
-  SolverResult result;
-  check(vtk_module().function<VtkResultFunction>("_result")(path, result));
-  return result;
+const Module& module_of(Library library, std::string_view ending) {
+  require_library(library, ending);
+  constexpr const char* names[] = {"", "quadrille_vtk", "quadrille_picture", "quadrille_med"};
+  static std::mutex opening;
+  static std::map<Library, Module> open;
+  const std::lock_guard lock(opening);
+  return open.try_emplace(library, names[static_cast<int>(library)]).first->second;
 }
 
 void open_med_module() noexcept {
   try {
-    med_module();
+    module_of(Library::med, ".med");
   } catch (const std::exception&) {
     return;
   }
 }
 
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {
-  const auto write = med_module().function<MedFileFunction>("_file");
+  module_of(Library::med, ".med");  // opened here, not in the child
   IsolatedWork options;
   options.subject = name;
   options.crashed = name + ".med: libmed crashed while writing the mesh, probably out of memory";
   // libmed prints lines of its own when it fails; the output of a child process is not shown.
-  return isolated_bytes(options, [&] {
-    std::string bytes;
-    check(write(mesh, name, description, bytes));
-    return bytes;
-  });
+  constexpr ModuleFunction<std::string, const OutputMesh&, const std::string&, const std::string&> write{
+      Library::med, "_file", ".med"};
+  return isolated_bytes(options, [&] { return write(mesh, name, description); });
 }
 
 }  // namespace quadrille

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "geometry/base/module_loader.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/output_mesh.hpp"
 #include "mesher/io/result_reader.hpp"
@@ -30,38 +32,57 @@ struct ImportedMesh {
   std::vector<char> set_names;                           ///< names of all sets, each followed by a 0
   std::vector<std::array<std::int64_t, 2>> in_set;       ///< index of an element, index of the set's name
   std::vector<std::array<std::int64_t, 2>> node_in_set;  ///< index of a point, index of the set's name
+
+  /// Visits all lists.
+  template <class Visit>
+  void each(Visit&& visit) {
+    std::apply([&](auto&... lists) { (visit(lists), ...); },
+               std::tie(points, elements, set_names, in_set, node_in_set));
+  }
 };
 
-/// Types of the functions that the modules export as C symbols. Each function returns an empty string, or a
-/// sentence that says what went wrong; no exception leaves a module.
-using VtkFileFunction = std::string(const OutputMesh& mesh, const std::vector<double>& qualities,
-                                    std::string& bytes);
-using PictureFunction = std::string(const ShellMesh& mesh, const std::vector<double>& qualities, int width,
-                                    int height, std::string& bytes);
-using VtkSizesFunction = std::string(const SizeMap& map, std::string& bytes);
-using SizePictureFunction = std::string(const SizeMap& map, int width, int height, std::string& bytes);
-using VtkResultFunction = std::string(const std::string& path, SolverResult& result);
-using VtkReadFunction = std::string(const std::string& path, const std::string& ending, ImportedMesh& mesh);
-using MedFileFunction = std::string(const OutputMesh& mesh, const std::string& name,
-                                    const std::string& description, std::string& bytes);
+/// The module of a library, opened by the first call. Throws as require_library(), and Error (failure) if it
+/// cannot be opened.
+const Module& module_of(Library library, std::string_view ending);
+
+/// A function that a module exports as a C symbol. There it has one more argument, which receives the result.
+/// It returns an empty string, or a sentence that says what went wrong; no exception leaves a module.
+template <class Result, class... Arguments>
+struct ModuleFunction {
+  Library library;
+  const char* name;
+  std::string_view ending;  ///< of the files that need the library
+
+  /// Opens the module. Throws Error (failure) with the sentence, which does not name the file.
+  Result operator()(Arguments... arguments) const {
+    const auto work = module_of(library, ending).template function<std::string(Arguments..., Result&)>(name);
+    Result result;
+    const std::string problem = work(arguments..., result);
+    if (!problem.empty()) throw failure("", problem);
+    return result;
+  }
+};
 
 /// The bytes of a .vtu file: shell elements, lines on CAD edges, points on CAD vertices, with their CAD
-/// numbers. \param qualities (quads) q of each quad. Throws Error (failure).
-std::string vtu_file(const OutputMesh& mesh, const std::vector<double>& qualities);
+/// numbers. The second argument has (quads) q of each quad.
+inline constexpr ModuleFunction<std::string, const OutputMesh&, const std::vector<double>&> vtu_file{
+    Library::vtk, "_file", ".vtu"};
 
-/// The bytes of a PNG of the mesh. Throws Error (failure).
-std::string vtk_picture(const ShellMesh& mesh, int width, int height);
+/// The bytes of a PNG of the mesh with (quads) q of each quad; width and height.
+inline constexpr ModuleFunction<std::string, const ShellMesh&, const std::vector<double>&, int, int>
+    vtk_picture{Library::pictures, "_draw", ".png"};
 
-/// The bytes of a .vtu file and of a PNG of the sizes. Both throw Error (failure).
-std::string vtu_sizes(const SizeMap& map);
-std::string size_picture(const SizeMap& map, int width, int height);
+/// The bytes of a .vtu file and of a PNG of the sizes; width and height.
+inline constexpr ModuleFunction<std::string, const SizeMap&> vtu_sizes{Library::vtk, "_sizes", ".vtu"};
+inline constexpr ModuleFunction<std::string, const SizeMap&, int, int> size_picture{Library::pictures,
+                                                                                    "_sizes", ".png"};
 
-/// The mesh in a file. \param ending .stl, .obj, .ply, .vtk, .vtu or .vtp. Throws Error (failure) that does
-/// not name the file.
-ImportedMesh vtk_mesh(const std::string& path, const std::string& ending);
+/// The mesh in a file, given its ending: .stl, .obj, .ply, .vtk, .vtu or .vtp.
+inline constexpr ModuleFunction<ImportedMesh, const std::string&, const std::string&> vtk_mesh{
+    Library::vtk, "_read", ".vtu"};
 
-/// A solver's result from a .vtu file. Throws Error (failure) that does not name the file.
-SolverResult vtk_result(const std::string& path);
+/// A solver's result from a .vtu file.
+inline constexpr ModuleFunction<SolverResult, const std::string&> vtk_result{Library::vtk, "_result", ".vtu"};
 
 /// Opens the module for .med files ahead of time. If it cannot be opened, med_file() reports why.
 void open_med_module() noexcept;

@@ -26,16 +26,8 @@ int largest_number(const std::vector<CadGroup>& groups) {
 int msh_element_type(const ElementNodes& element, int dimension) {
   if (dimension == 0) return type_point;
   if (dimension == 1) return element.count == 3 ? type_line3 : type_line;
-  switch (element.count) {
-    case 3:
-      return type_triangle;
-    case 4:
-      return type_quad;
-    case 8:
-      return type_quad8;
-    default:
-      return type_quad9;
-  }
+  if (element.count == 3) return type_triangle;
+  return element.count == 4 ? type_quad : element.count == 8 ? type_quad8 : type_quad9;
 }
 
 /// Numbers of physical groups. A mesh that was read keeps its numbers. Else the number of a face is its CAD
@@ -290,8 +282,6 @@ void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& a
   out << "$EndElements\n";
 }
 
-}  // namespace
-
 void write_msh2(const OutputMesh& mesh, TextWriter& out) {
   const PhysicalNumbers physical(mesh, false);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
@@ -334,6 +324,15 @@ void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   write_node_blocks(mesh, all, out);
   write_element_blocks(mesh, all, out);
   write_periodic(mesh, true, out);
+}
+
+}  // namespace
+
+void write_msh(const Writing& writing, TextWriter& out) {
+  if (writing.options.msh_version == MshVersion::v4_1)
+    write_msh4(writing.output, out);
+  else
+    write_msh2(writing.output, out);
 }
 
 }  // namespace quadrille

@@ -143,18 +143,9 @@ class OutputMesh {
   std::vector<ThicknessGroup> thicknesses_;
 };
 
-/// VTK's cell type of a shell element.
+/// VTK's cell type of a shell element: VTK_TRIANGLE, VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD.
 inline int vtk_cell_type(const ElementNodes& element) {
-  switch (element.count) {
-    case 3:
-      return 5;  // VTK_TRIANGLE
-    case 4:
-      return 9;  // VTK_QUAD
-    case 8:
-      return 23;  // VTK_QUADRATIC_QUAD
-    default:
-      return 28;  // VTK_BIQUADRATIC_QUAD
-  }
+  return element.count == 3 ? 5 : element.count == 4 ? 9 : element.count == 8 ? 23 : 28;
 }
 
 /// The name of the array for a set in VTK's formats: the name of the set, with `_` appended if it is one of

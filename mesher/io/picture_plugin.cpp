@@ -17,7 +17,7 @@
 #include <set>
 
 #include "geometry/base/error.hpp"
-#include "mesher/io/module_export.hpp"
+#include "geometry/base/module_loader.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/picture_scene.hpp"
 #include "mesher/io/size_picture.hpp"

@@ -143,7 +143,8 @@ void write_groups(const OutputMesh& mesh, TextWriter& out) {
 
 }  // namespace
 
-void write_unv(const OutputMesh& mesh, TextWriter& out) {
+void write_unv(const Writing& writing, TextWriter& out) {
+  const OutputMesh& mesh = writing.output;
   write_header(out);
   write_nodes(mesh, out);
   write_elements(mesh, out);

@@ -20,7 +20,7 @@
 #include <limits>
 
 #include "geometry/base/error.hpp"
-#include "mesher/io/module_export.hpp"
+#include "geometry/base/module_loader.hpp"
 #include "mesher/io/modules.hpp"
 
 namespace quadrille {

@@ -120,24 +120,14 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
   options.memory = static_cast<std::size_t>(std::min(free_memory(), base + expansion * size));
   const auto work = [&](std::ostream& out) {
     try {
-      const ImportedMesh mesh = vtk_mesh(name, ending);
-      put(mesh.points, out);
-      put(mesh.elements, out);
-      put(mesh.set_names, out);
-      put(mesh.in_set, out);
-      put(mesh.node_in_set, out);
+      require_library(Library::vtk, ending);
+      vtk_mesh(name, ending).each([&](const auto& records) { put(records, out); });
     } catch (const Error& error) {
       throw failure(name, fmt::format("{}: {}", name, error.what()));
     }
   };
   ImportedMesh mesh;
-  run_isolated(options, work, [&](std::istream& in) {
-    get(mesh.points, in);
-    get(mesh.elements, in);
-    get(mesh.set_names, in);
-    get(mesh.in_set, in);
-    get(mesh.node_in_set, in);
-  });
+  run_isolated(options, work, [&](std::istream& in) { mesh.each([&](auto& records) { get(records, in); }); });
   return mesh;
 }
 

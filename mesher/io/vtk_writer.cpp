@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/io/writers.hpp"
+#include "mesher/mesh/quality.hpp"
 
 namespace quadrille {
 
@@ -61,12 +62,13 @@ void write_set_arrays(const OutputMesh& mesh, TextWriter& out) {
 
 }  // namespace
 
-void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::vector<double>& qualities,
-               TextWriter& out) {
+void write_vtk(const Writing& writing, TextWriter& out) {
+  const OutputMesh& mesh = writing.output;
+  const std::vector<double> qualities = quad_qualities(writing.mesh);
   constexpr std::size_t longest_title = 255;
   const std::size_t nodes = mesh.nodes().size();
   out << "# vtk DataFile Version 2.0\n"
-      << std::string_view(options.title).substr(0, longest_title)
+      << std::string_view(writing.options.title).substr(0, longest_title)
       << "\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << nodes << " double\n";
   write_in_order(nodes, out,
                  [&](std::size_t i, TextWriter& to) { to << mesh.point(static_cast<int>(i)) << '\n'; });

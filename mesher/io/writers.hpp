@@ -9,15 +9,19 @@
 
 namespace quadrille {
 
-void write_msh2(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 2.2, ASCII
-void write_msh4(const OutputMesh& mesh, TextWriter& out);  ///< Gmsh .msh 4.1, ASCII
-/// Abaqus/CalculiX .inp. \param comment a line for readers of the file; empty = none.
-void write_inp(const OutputMesh& mesh, const WriteOptions& options, const std::string& comment,
-               TextWriter& out);
-void write_unv(const OutputMesh& mesh, TextWriter& out);
-void write_bdf(const OutputMesh& mesh, const WriteOptions& options, TextWriter& out);
-/// Legacy .vtk as text, with only the shell elements as cells. \param qualities (quads) q of each quad.
-void write_vtk(const OutputMesh& mesh, const WriteOptions& options, const std::vector<double>& qualities,
-               TextWriter& out);
+/// A mesh on its way into a file.
+struct Writing {
+  const ShellMesh& mesh;
+  const OutputMesh& output;  ///< the same mesh, in the coordinates of the model
+  const std::filesystem::path& path;
+  const WriteOptions& options;
+};
+
+void write_msh(const Writing& writing, TextWriter& out);  ///< Gmsh .msh, ASCII, 2.2 or 4.1
+void write_inp(const Writing& writing, TextWriter& out);  ///< Abaqus/CalculiX .inp
+void write_unv(const Writing& writing, TextWriter& out);
+void write_bdf(const Writing& writing, TextWriter& out);
+/// Legacy .vtk as text, with only the shell elements as cells.
+void write_vtk(const Writing& writing, TextWriter& out);
 
 }  // namespace quadrille
