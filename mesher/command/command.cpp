@@ -1,10 +1,13 @@
-/// Checks of the files that commands are given, and the progress line that is drawn on a terminal.
+/// Checks of the files that commands are given, the progress line that is drawn on a terminal, and what ends
+/// a run early: signals.hpp rings.
 
 #include "mesher/command/command.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <system_error>
 
@@ -14,6 +17,9 @@
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
+#include "geometry/cad/isolated_reading.hpp"
+#include "mesher/command/setting_options.hpp"
+#include "mesher/command/signals.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -165,6 +171,55 @@ void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings
     cancel.wrote(files.outputs[i]);
   }
   if (!files.picture.empty()) draw_apart(files.picture, context, [&] { write_picture(mesh, files.picture); });
+}
+
+namespace {
+
+std::vector<std::string> whole_files;
+
+void prepare_time_line(double time_limit) {
+  set_alarm_line(
+      fmt::format("quadrille: the time limit of {:g} s is reached{}\n", time_limit, left_behind()));
+}
+
+}  // namespace
+
+std::string left_behind() {
+  if (whole_files.empty()) return ", and nothing was written";
+  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
+}
+
+CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
+    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
+  whole_files.clear();
+  prepare_time_line(time_limit);
+  watch_signals(context, partial);
+  if (time_limit <= 0) return;
+  context.limit_time(time_limit);
+  ring_after(time_limit);
+}
+
+void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
+  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
+  set_alarm_line("quadrille: " + with_options(reading_too_long(printable(file.string()), seconds)) + "\n");
+  ring_after(seconds);
+}
+
+void CancelOnSignal::reading_is_done() {
+  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
+  ring_after(0);
+  prepare_time_line(time_limit_);
+  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
+}
+
+void CancelOnSignal::wrote(const std::filesystem::path& file) {
+  whole_files.push_back(printable(file.string()));
+  prepare_time_line(time_limit_);
+}
+
+CancelOnSignal::~CancelOnSignal() {
+  ring_after(0);
+  stop_watching_signals();
 }
 
 }  // namespace quadrille::command

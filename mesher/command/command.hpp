@@ -29,6 +29,7 @@ void add_info_command(CLI::App& app);
 void add_quality_command(CLI::App& app);
 void add_midsurface_command(CLI::App& app);
 void add_adapt_command(CLI::App& app);
+void add_recombine_command(CLI::App& app);
 void add_remesh_command(CLI::App& app);
 void add_sizes_command(CLI::App& app);
 void add_settings_command(CLI::App& app);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "mesher/command/command.hpp"
-#include "mesher/command/middle_table.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/command/tables.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {

@@ -4,8 +4,8 @@
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
-#include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/command/tables.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {

@@ -1,6 +1,4 @@
-/// Checks the options, reads the triangles, pairs them and writes quads and report.
-
-#include "mesher/command/recombine_command.hpp"
+/// quadrille recombine TRI.msh -o QUAD.msh: a mesh of triangles in, quads out.
 
 #include <fmt/format.h>
 
@@ -11,9 +9,9 @@
 #include <optional>
 
 #include "mesher/command/command.hpp"
-#include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/command/surface_input.hpp"
+#include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/from_triangles.hpp"

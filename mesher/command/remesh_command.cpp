@@ -9,9 +9,9 @@
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
-#include "mesher/command/print_quality.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/command/surface_input.hpp"
+#include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 

@@ -20,7 +20,6 @@
 #include "geometry/base/module_loader.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/picture_scene.hpp"
-#include "mesher/io/size_picture.hpp"
 #include "mesher/io/x_display.hpp"
 #include "mesher/mesh/sides.hpp"
 
@@ -30,20 +29,13 @@ namespace {
 
 /// From red (bad) through yellow to blue (good), which the color-blind can also tell apart.
 vtkNew<vtkLookupTable> color_map() {
-  constexpr double stops[][4] = {{0.0, 0.65, 0.00, 0.15}, {0.3, 0.91, 0.36, 0.23},  {0.5, 0.99, 0.68, 0.38},
-                                 {0.7, 1.00, 0.92, 0.62}, {0.85, 0.80, 0.92, 0.94}, {1.0, 0.42, 0.66, 0.82}};
-  constexpr int colors = 256;
-  vtkNew<vtkLookupTable> table;
-  table->SetNumberOfTableValues(colors);
+  vtkNew<vtkLookupTable> table = color_table({{0.0, 0.65, 0.00, 0.15},
+                                              {0.3, 0.91, 0.36, 0.23},
+                                              {0.5, 0.99, 0.68, 0.38},
+                                              {0.7, 1.00, 0.92, 0.62},
+                                              {0.85, 0.80, 0.92, 0.94},
+                                              {1.0, 0.42, 0.66, 0.82}});
   table->SetRange(0, 1);
-  for (int i = 0; i < colors; ++i) {
-    const double value = i / (colors - 1.0);
-    int right = 1;
-    while (stops[right][0] < value) ++right;
-    const double *a = stops[right - 1], *b = stops[right];
-    const double t = (value - a[0]) / (b[0] - a[0]);
-    table->SetTableValue(i, a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]), a[3] + t * (b[3] - a[3]));
-  }
   return table;
 }
 
@@ -136,6 +128,17 @@ std::string draw(const ShellMesh& mesh, const std::vector<double>& qualities, in
   return rendered({scene, legend}, width, height);
 }
 
+/// Draws on a display. Returns what went wrong as a sentence, else an empty string.
+template <class Draw>
+std::string drawn(std::string& bytes, Draw&& draw_it) try {
+  const XDisplay display;
+  if (!display.usable()) return display.problem();
+  bytes = draw_it();
+  return bytes.empty() ? "VTK could not draw the picture" : "";
+} catch (const std::exception& error) {
+  return sentence_of(error);
+}
+
 }  // namespace
 
 }  // namespace quadrille
@@ -146,21 +149,11 @@ QUADRILLE_EXPORT const char* quadrille_picture_version() {
 
 QUADRILLE_EXPORT std::string quadrille_picture_draw(const quadrille::ShellMesh& mesh,
                                                     const std::vector<double>& qualities, int width,
-                                                    int height, std::string& bytes) try {
-  const quadrille::XDisplay display;
-  if (!display.usable()) return display.problem();
-  bytes = quadrille::draw(mesh, qualities, width, height);
-  return bytes.empty() ? "VTK could not draw the picture" : "";
-} catch (const std::exception& error) {
-  return quadrille::sentence_of(error);
+                                                    int height, std::string& bytes) {
+  return quadrille::drawn(bytes, [&] { return quadrille::draw(mesh, qualities, width, height); });
 }
 
 QUADRILLE_EXPORT std::string quadrille_picture_sizes(const quadrille::SizeMap& map, int width, int height,
-                                                     std::string& bytes) try {
-  const quadrille::XDisplay display;
-  if (!display.usable()) return display.problem();
-  bytes = quadrille::draw_sizes(map, width, height);
-  return bytes.empty() ? "VTK could not draw the picture" : "";
-} catch (const std::exception& error) {
-  return quadrille::sentence_of(error);
+                                                     std::string& bytes) {
+  return quadrille::drawn(bytes, [&] { return quadrille::draw_sizes(map, width, height); });
 }

@@ -58,6 +58,21 @@ vtkNew<vtkPoints> make_points(const std::vector<Vector3>& positions) {
   return points;
 }
 
+vtkNew<vtkLookupTable> color_table(const ColorStops& stops) {
+  constexpr int colors = 256;
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(colors);
+  for (int i = 0; i < colors; ++i) {
+    const double value = i / (colors - 1.0);
+    std::size_t right = 1;
+    while (stops[right][0] < value) ++right;
+    const auto &a = stops[right - 1], &b = stops[right];
+    const double t = (value - a[0]) / (b[0] - a[0]);
+    table->SetTableValue(i, a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]), a[3] + t * (b[3] - a[3]));
+  }
+  return table;
+}
+
 vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoints* points, double width,
                             double opacity) {
   vtkNew<vtkCellArray> cells;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "geometry/base/vector.hpp"
+#include "mesher/size_map.hpp"
 
 namespace quadrille {
 
@@ -28,6 +29,12 @@ void add_cell(vtkCellArray* cells, const std::array<int, N>& nodes) {
   std::copy(nodes.begin(), nodes.end(), ids.begin());
   cells->InsertNextCell(static_cast<vtkIdType>(N), ids.data());
 }
+
+/// Colors at values from 0 to 1, ascending: value, red, green, blue.
+using ColorStops = std::vector<std::array<double, 4>>;
+
+/// 256 colors between those of the stops, from the first to the last.
+vtkNew<vtkLookupTable> color_table(const ColorStops& stops);
 
 /// Dark lines between points. \param width pixels.
 vtkNew<vtkActor> line_actor(const std::vector<std::array<int, 2>>& lines, vtkPoints* points, double width,
@@ -61,5 +68,9 @@ void aim_camera(const View& view, double scale, vtkRenderer* renderer);
 
 /// The bytes of a PNG; empty if VTK cannot draw it. \param renderers with their viewports set.
 std::string rendered(const std::vector<vtkRenderer*>& renderers, int width, int height);
+
+/// The same of a picture with the sizes on the left, the governing sources on the right. \param width, height
+/// pixels.
+std::string draw_sizes(const SizeMap& map, int width, int height);
 
 }  // namespace quadrille

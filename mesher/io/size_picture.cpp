@@ -1,7 +1,5 @@
 /// Draws two views with VTK: sizes, colored by their logarithm, and the governing source at each place.
 
-#include "mesher/io/size_picture.hpp"
-
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
@@ -12,8 +10,6 @@
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkTextProperty.h>
-
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -40,25 +36,15 @@ Color color_of_source(std::size_t source) {
 
 /// From dark (small) to light (large), by the logarithm of the size. The lightness grows evenly (viridis).
 vtkNew<vtkLookupTable> colors_of_sizes(const SizeMap& map) {
-  constexpr Color stops[] = {{0.267, 0.005, 0.329},
-                             {0.229, 0.322, 0.546},
-                             {0.128, 0.567, 0.551},
-                             {0.369, 0.789, 0.383},
-                             {0.993, 0.906, 0.144}};
+  vtkNew<vtkLookupTable> table = color_table({{0, 0.267, 0.005, 0.329},
+                                              {0.25, 0.229, 0.322, 0.546},
+                                              {0.5, 0.128, 0.567, 0.551},
+                                              {0.75, 0.369, 0.789, 0.383},
+                                              {1, 0.993, 0.906, 0.144}});
   const auto [least, largest] = std::minmax_element(map.sizes.begin(), map.sizes.end());
-  constexpr int colors = 256;
   constexpr double narrowest = 1.1;  // least ratio of the range, so that the range is never empty
-  vtkNew<vtkLookupTable> table;
   table->SetScaleToLog10();
-  table->SetNumberOfTableValues(colors);
   table->SetRange(std::min(*least, *largest / narrowest), *largest);
-  for (int i = 0; i < colors; ++i) {
-    const double place = (std::size(stops) - 1) * i / (colors - 1.0);
-    const auto k = std::min<std::size_t>(static_cast<std::size_t>(place), std::size(stops) - 2);
-    const double t = place - static_cast<double>(k);
-    const Color &a = stops[k], &b = stops[k + 1];
-    table->SetTableValue(i, a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2]));
-  }
   return table;
 }
 
