@@ -43,19 +43,22 @@ class Brick {
   Vector3 corner(int k) const { return 0.5 * (result_.points[nodes_[k]] + result_.points[nodes_[k + 4]]); }
 
   /// Derivatives of position and of displacement with respect to the three local coordinates.
-  void derivatives(const Vector3& at, Eigen::Matrix3d& place, Eigen::Matrix3d& moved) const {
-    place.setZero();
-    moved.setZero();
+  struct Derivatives {
+    Eigen::Matrix3d place = Eigen::Matrix3d::Zero(), moved = Eigen::Matrix3d::Zero();
+  };
+  Derivatives derivatives(const Vector3& at) const {
+    Derivatives result;
     for (int k = 0; k < 3; ++k) {
       // Central differences are exact: along each coordinate the functions are quadratic.
       constexpr double h = 0.5;
       const Vector3 step = h * Vector3::Unit(k);
       for (int i = 0; i < n_; ++i) {
         const double slope = (shape(at + step, i, n_) - shape(at - step, i, n_)) / (2 * h);
-        place.col(k) += slope * result_.points[nodes_[i]];
-        moved.col(k) += slope * result_.displacements[nodes_[i]];
+        result.place.col(k) += slope * result_.points[nodes_[i]];
+        result.moved.col(k) += slope * result_.displacements[nodes_[i]];
       }
     }
+    return result;
   }
 
   Vector3 point(const Vector3& at) const {
@@ -66,8 +69,7 @@ class Brick {
 
   /// The stress at a point, plane in the layer there.
   Tensor stress(const Vector3& at, double poisson) const {
-    Eigen::Matrix3d place, moved;
-    derivatives(at, place, moved);
+    const auto [place, moved] = derivatives(at);
     const Eigen::Matrix3d gradient = moved * place.inverse();
     const Eigen::Matrix3d strain = 0.5 * (gradient + gradient.transpose());
     const Vector3 normal = place.col(0).cross(place.col(1)).normalized();
@@ -99,8 +101,7 @@ bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
   Vector3 center = Vector3::Zero();
   for (int k = 0; k < 4; ++k) center += brick.corner(k) / 4;
   const double side = (mesh.points[mesh.quads[quad][2]] - mesh.points[mesh.quads[quad][0]]).norm();
-  Eigen::Matrix3d place, moved;
-  brick.derivatives(Vector3::Zero(), place, moved);
+  const Eigen::Matrix3d place = brick.derivatives(Vector3::Zero()).place;
   constexpr double share = 0.1;
   return (center - center_of(mesh, quad)).norm() <= share * side + 1.1 * place.col(2).norm();
 }
@@ -108,8 +109,7 @@ bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
 ShellStress stress_at(const Brick& brick, double x, double y, double poisson) {
   const double layer = 1 / std::sqrt(3.0);  // where bricks are most accurate
   const Tensor low = brick.stress({x, y, -layer}, poisson), high = brick.stress({x, y, layer}, poisson);
-  Eigen::Matrix3d place, moved;
-  brick.derivatives({x, y, 0}, place, moved);
+  const Eigen::Matrix3d place = brick.derivatives({x, y, 0}).place;
   const Vector3 normal = place.col(0).cross(place.col(1));
   return {brick.point({x, y, 0}), normal.norm(), 2 * std::abs(place.col(2).dot(normal.normalized())),
           0.5 * (low + high), 0.5 / layer * (high - low)};
@@ -121,8 +121,7 @@ std::array<ShellStress, 4> stresses_of(const ShellMesh& mesh, int quad, const Br
   const auto& corners = mesh.quads[quad];
   const Vector3 normal = (mesh.points[corners[2]] - mesh.points[corners[0]])
                              .cross(mesh.points[corners[3]] - mesh.points[corners[1]]);
-  Eigen::Matrix3d place, moved;
-  brick.derivatives(Vector3::Zero(), place, moved);
+  const Eigen::Matrix3d place = brick.derivatives(Vector3::Zero()).place;
   const double side = place.col(0).cross(place.col(1)).dot(normal) < 0 ? -1 : 1;
   std::array<ShellStress, 4> stresses;
   for (int k = 0; k < 4; ++k) {

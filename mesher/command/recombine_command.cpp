@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,6 +11,7 @@
 #include "mesher/command/surface_input.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
+#include "mesher/io/text_cursor.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/from_triangles.hpp"
 
@@ -78,9 +77,7 @@ void run(const RecombineArguments& arguments) {
 
 /// Needed since CLI11 clamps a number that is too large, and shows a range of 300 digits.
 std::string seed_problem(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error == std::errc() && end == text.data() + text.size()) return {};
+  if (exactly<std::uint64_t>(text)) return {};
   return fmt::format("must be a whole number from 0 to 2^64 - 1, not '{}'", text);
 }
 

@@ -3,7 +3,6 @@
 #include "mesher/command/setting_options.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <regex>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "mesher/io/io.hpp"
+#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille::command {
 
@@ -87,10 +87,8 @@ const Setting* list_of(const std::string& argument) {
 
 CLI::Validator number(const NumberRule& rule) {
   return {[rule](const std::string& text) {
-            double value = 0;
-            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (error == std::errc() && end == text.data() + text.size() && rule.allows(value))
-              return std::string();
+            const std::optional<double> value = exactly<double>(text);
+            if (value && rule.allows(*value)) return std::string();
             return fmt::format("must be {}, not '{}'", rule.sentence(), text);
           },
           ""};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <map>
 
@@ -14,12 +13,6 @@
 namespace quadrille {
 
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
-}
 
 /// An entry: its name and its fields, followed by those of its continuation lines.
 struct Card {
@@ -133,12 +126,9 @@ class BdfReader {
   }
 
   std::int64_t whole(std::string_view text, const char* what, const Card& card) const {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || text.empty())
-      throw cursor_.error_before(fmt::format("expected {} in the {} before this line, found \"{}\"", what,
-                                             card.name, text.substr(0, 20)));
-    return value;
+    if (const std::optional<std::int64_t> value = exactly<std::int64_t>(text)) return *value;
+    throw cursor_.error_before(fmt::format("expected {} in the {} before this line, found \"{}\"", what,
+                                           card.name, text.substr(0, 20)));
   }
 
   /// Reads "1.5", "-.5", "1.5E3", "1.5D3" and, without a letter, "1.5+3". Blank is 0.

@@ -85,7 +85,7 @@ int property(const OutputMesh& mesh, int face) {
 /// Writes a property for each face, with material 1 and the mean thickness of the shell if that is known. The
 /// file that includes this one must define the material and the unknown thicknesses.
 void write_properties(const OutputMesh& mesh, TextWriter& out) {
-  for (const CadGroup& group : mesh.faces()) {
+  for (const CadGroup& group : mesh.entities(2)) {
     out << "PSHELL  ";
     out.padded(property(mesh, group.number), narrow);
     if (const double thickness = mesh.face_thickness(group.number); thickness > 0) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <map>
 #include <regex>
@@ -25,9 +24,7 @@ std::string without_blanks_and_quotes(std::string_view text) {
 }
 
 std::string upper_trimmed(std::string_view text) {
-  std::string result = without_blanks_and_quotes(text);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
+  return upper(without_blanks_and_quotes(text));
 }
 
 /// A set as in the file: numbers, and names of other sets.
@@ -289,10 +286,8 @@ class InpReader {
     while (!line.empty()) {
       const std::string_view text = field(line);
       if (text.empty()) continue;
-      std::int64_t member = 0;
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), member);
-      if (error == std::errc() && end == text.data() + text.size())
-        add_to_set(member);
+      if (const std::optional<std::int64_t> member = exactly<std::int64_t>(text))
+        add_to_set(*member);
       else
         set_->sets.push_back(upper_trimmed(text));
     }

@@ -11,6 +11,7 @@
 #include "geometry/base/error.hpp"
 #include "mesher/io/plane_mesh.hpp"
 #include "mesher/io/segment_sides.hpp"
+#include "mesher/io/text_cursor.hpp"
 #include "mesher/io/writers.hpp"
 
 namespace quadrille {
@@ -69,10 +70,6 @@ class SetNames {
     for (int i = 2; !taken_.insert(upper(free)).second; ++i) free = name + '_' + std::to_string(i);
     return free;
   }
-  static std::string upper(std::string name) {
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return name;
-  }
 
   std::set<std::string> taken_{"NALL", "EALL", "EOTHER"};
   std::vector<std::string> names_[3];
@@ -99,7 +96,7 @@ void write_elements(const OutputMesh& mesh, InpElement element, const CadGroup& 
 void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames& names, TextWriter& out) {
   const std::vector<NamedGroup>& groups = mesh.groups(2);
   std::vector<char> written(groups.size(), 0);
-  for (const CadGroup& face : mesh.faces()) {
+  for (const CadGroup& face : mesh.entities(2)) {
     std::string set = face.number > 0 ? "" : "Eother";
     for (std::size_t i = 0; i < groups.size() && set.empty(); ++i) {
       if (written[i] || groups[i].entities != std::vector<int>{face.number}) continue;

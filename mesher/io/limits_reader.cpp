@@ -4,14 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 
 #include "geometry/base/error.hpp"
 #include "mesher/io/readers.hpp"
+#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille {
 namespace {
@@ -72,13 +71,6 @@ class LimitsReader {
     return names;
   }
 
-  static std::optional<double> number_in(const std::string& word) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size()) return {};
-    return value;
-  }
-
   /// A line is: number of the criterion, its name in words, then numbers.
   void read_hypermesh(const std::string& text) {
     limits_.values.fill(CriteriaLimits::unchecked);
@@ -90,9 +82,9 @@ class LimitsReader {
       std::string word, criterion;
       std::vector<double> numbers;
       words >> word;
-      if (!number_in(word)) continue;
+      if (!exactly<double>(word)) continue;
       while (words >> word) {
-        const auto number = number_in(word);
+        const auto number = exactly<double>(word);
         if (number) numbers.push_back(*number);
         if (!number && numbers.empty()) criterion += (criterion.empty() ? "" : " ") + word;
         if (!number && !numbers.empty()) break;

@@ -7,9 +7,11 @@ using MPI_Info = void*;
 #include <med.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <map>
 #include <string>
 
 #include "geometry/base/error.hpp"
@@ -52,20 +54,13 @@ class MemoryFile {
   med_idt id_ = -1;
 };
 
-/// Family numbers, as MED defines them: positive for nodes, negative for elements; 0 = in no group.
-struct Families {
-  std::vector<med_int> nodes, shells, segments;
-};
+/// Family numbers of nodes (dimension 0), segments (1) and shell elements (2), as MED defines them: positive
+/// for nodes, negative for elements; 0 = in no group.
+using Families = std::array<std::vector<med_int>, 3>;
 
 /// Elements of one geometric type, written together.
 struct ElementTable {
-  med_geometry_type type;
   std::vector<med_int> nodes, families;
-
-  void add(const OutputMesh& mesh, const ElementNodes& element, med_int family) {
-    for (const int node : element) nodes.push_back(mesh.number(node));
-    families.push_back(family);
-  }
 };
 
 class MedWriter {
@@ -76,9 +71,8 @@ class MedWriter {
   void write(const std::string& description) const {
     make_mesh(description.substr(0, MED_COMMENT_SIZE));
     const Families families = make_families();
-    write_nodes(families.nodes);
-    write_segments(families.segments);
-    write_shells(families.shells);
+    write_nodes(families[0]);
+    for (const int dimension : {1, 2}) write_elements(dimension, families[dimension]);
   }
 
  private:
@@ -122,30 +116,22 @@ class MedWriter {
     return names;
   }
 
-  /// \param place_of gives the index into `numbers` of a member of an entity.
-  template <class PlaceOf>
-  void add_families(int dimension, const std::vector<CadGroup>& entities, med_int& next,
-                    std::vector<med_int>& numbers, PlaceOf place_of) const {
-    for (const CadGroup& entity : entities) {
-      if (entity.number == 0) continue;
-      const std::vector<std::string> names = names_of(dimension, entity.number);
-      if (names.empty()) continue;
-      make_family(names, next);
-      for (const int member : entity.members) numbers[place_of(member)] = next;
-      next += dimension == 0 ? 1 : -1;
-    }
-  }
-
   Families make_families() const {
     check(MEDfamilyCr(file_, name_.c_str(), "FAMILLE_ZERO", 0, 0, ""), "a family");
     Families families{std::vector<med_int>(mesh_.nodes().size(), 0),
-                      std::vector<med_int>(mesh_.shell_count(), 0),
-                      std::vector<med_int>(mesh_.segment_count(), 0)};
-    med_int next_node = 1, next_element = -1;
-    add_families(0, mesh_.vertices(), next_node, families.nodes,
-                 [this](int corner) { return mesh_.number(mesh_.corner_node(corner)) - 1; });
-    add_families(2, mesh_.faces(), next_element, families.shells, [](int shell) { return shell; });
-    add_families(1, mesh_.edges(), next_element, families.segments, [](int segment) { return segment; });
+                      std::vector<med_int>(mesh_.segment_count(), 0),
+                      std::vector<med_int>(mesh_.shell_count(), 0)};
+    med_int last_node = 0, last_element = 0;
+    for (const int dimension : {0, 2, 1})
+      for (const CadGroup& entity : mesh_.entities(dimension)) {
+        if (entity.number == 0) continue;
+        const std::vector<std::string> names = names_of(dimension, entity.number);
+        if (names.empty()) continue;
+        const med_int family = dimension == 0 ? ++last_node : --last_element;
+        make_family(names, family);
+        for (const int i : entity.members)
+          families[dimension][dimension == 0 ? mesh_.number(mesh_.corner_node(i)) - 1 : i] = family;
+      }
     return families;
   }
 
@@ -167,37 +153,23 @@ class MedWriter {
           "the families");
   }
 
-  void write_table(const ElementTable& table) const {
-    if (table.families.empty()) return;
-    check(MEDmeshElementConnectivityWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, 0.0, MED_CELL, table.type,
-                                       MED_NODAL, MED_FULL_INTERLACE,
-                                       static_cast<med_int>(table.families.size()), table.nodes.data()),
-          "the elements");
-    write_family_numbers(MED_CELL, table.type, table.families);
-  }
-
-  void write_segments(const std::vector<med_int>& families) const {
-    ElementTable straight{MED_SEG2, {}, {}}, curved{MED_SEG3, {}, {}};
-    for (int i = 0; i < mesh_.segment_count(); ++i) {
-      const ElementNodes element = mesh_.segment_nodes(i);
-      (element.count == 3 ? curved : straight).add(mesh_, element, families[i]);
+  /// Writes the segments or the shell elements, with families as they are numbered.
+  void write_elements(int dimension, const std::vector<med_int>& families) const {
+    std::map<int, ElementTable> tables;  // by number of nodes
+    for (int i = 0; i < mesh_.count(dimension); ++i) {
+      const ElementNodes element = mesh_.element_nodes(dimension, i);
+      ElementTable& table = tables[element.count];
+      for (const int node : element) table.nodes.push_back(mesh_.number(node));
+      table.families.push_back(families[i]);
     }
-    write_table(straight);
-    write_table(curved);
-  }
-
-  void write_shells(const std::vector<med_int>& families) const {
-    ElementTable triangles{MED_TRIA3, {}, {}}, straight{MED_QUAD4, {}, {}}, eight{MED_QUAD8, {}, {}},
-        nine{MED_QUAD9, {}, {}};
-    for (int i = 0; i < mesh_.shell_count(); ++i) {
-      const ElementNodes element = mesh_.shell_nodes(i);
-      ElementTable& table = element.count == 3   ? triangles
-                            : element.count == 4 ? straight
-                            : element.count == 8 ? eight
-                                                 : nine;
-      table.add(mesh_, element, families[i]);
+    for (const auto& [nodes, table] : tables) {
+      const med_geometry_type type = 100 * dimension + nodes;  // MED_SEG2 is 102, MED_QUAD8 208
+      check(MEDmeshElementConnectivityWr(file_, name_.c_str(), MED_NO_DT, MED_NO_IT, 0.0, MED_CELL, type,
+                                         MED_NODAL, MED_FULL_INTERLACE,
+                                         static_cast<med_int>(table.families.size()), table.nodes.data()),
+            "the elements");
+      write_family_numbers(MED_CELL, type, table.families);
     }
-    for (const ElementTable* table : {&triangles, &straight, &eight, &nine}) write_table(*table);
   }
 
   med_idt file_;

@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <set>
 #include <utility>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/printable.hpp"
+#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille {
 
@@ -193,9 +193,8 @@ int MeshBuilder::number_in_name(int groups, std::string_view kind) const {
   for (auto group = set.rbegin(); group != set.rend(); ++group) {
     const std::string_view name = groups_[*group].name;
     if (name.size() <= kind.size() || !std::equal(kind.begin(), kind.end(), name.begin(), same)) continue;
-    int number = 0;
-    const auto [end, error] = std::from_chars(name.data() + kind.size(), name.data() + name.size(), number);
-    if (error == std::errc() && end == name.data() + name.size() && number > 0) return number;
+    const std::optional<int> number = exactly<int>(name.substr(kind.size()));
+    if (number && *number > 0) return *number;
   }
   return 0;
 }

@@ -168,31 +168,28 @@ class MshReader {
   void read_section() {
     const std::string_view heading = cursor_.word();
     if (heading.empty()) return;
+    const std::string end = heading == "$ELM" && old_ ? "$ENDELM" : "$End" + std::string(heading.substr(1));
     if (heading == "$ELM" && old_) {
       begin_once(has_elements_, "$ELM");
       read_elements1();
-      cursor_.expect_end("$ENDELM");
     } else if (heading == "$Nodes") {
       begin_once(has_nodes_, "$Nodes");
       new_ ? read_nodes4() : read_nodes2();
-      cursor_.expect_end("$EndNodes");
     } else if (heading == "$Elements") {
       begin_once(has_elements_, "$Elements");
       new_ ? read_elements4() : read_elements2();
-      cursor_.expect_end("$EndElements");
     } else if (heading == "$PhysicalNames") {
       read_names();
-      cursor_.expect_end("$EndPhysicalNames");
     } else if (heading == "$Entities" && new_) {
       cursor_.line();
       read_entities4();
-      cursor_.expect_end("$EndEntities");
     } else if (heading.front() == '$' && heading.size() < 80) {
-      const std::string end = "$End" + std::string(heading.substr(1));
       if (!cursor_.skip_past(end)) throw cursor_.truncated(end.c_str());
+      return;
     } else {
       throw cursor_.error("expected the beginning of a section, such as $Nodes");
     }
+    cursor_.expect_end(end.c_str());
   }
 
   void begin_once(bool& flag, const char* section) {

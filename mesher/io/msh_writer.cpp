@@ -54,8 +54,8 @@ class PhysicalNumbers {
 };
 
 PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
-  const int first[] = {mesh.cad_face_count() + largest_number(mesh.edges()), mesh.cad_face_count(), 0};
-  const int last_entity = first[0] + largest_number(mesh.vertices());
+  const int first[] = {mesh.cad_face_count() + largest_number(mesh.entities(1)), mesh.cad_face_count(), 0};
+  const int last_entity = first[0] + largest_number(mesh.entities(0));
   int last = mesh.groups_were_read() ? 0 : last_entity;
   for (int dimension = 0; dimension < 3; ++dimension)
     for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
@@ -183,8 +183,9 @@ struct Entities {
   std::vector<std::vector<int>> boundaries;  // signed numbers of the entities that bound each entity
 };
 
-Entities make_entities(int dimension, const std::vector<CadGroup>& groups,
+Entities make_entities(const OutputMesh& mesh, int dimension,
                        const std::vector<std::vector<int>>& boundaries) {
+  const std::vector<CadGroup>& groups = mesh.entities(dimension);
   Entities entities{dimension, groups, std::vector<std::vector<int>>(groups.size()), {}, boundaries};
   const int largest = largest_number(groups);
   for (const CadGroup& group : groups) entities.tags.push_back(group.number > 0 ? group.number : largest + 1);
@@ -306,9 +307,8 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
 void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   const PhysicalNumbers physical(mesh, true);
   const EntityBoundaries boundaries = entity_boundaries(mesh);
-  std::vector<Entities> all{make_entities(0, mesh.vertices(), {}),
-                            make_entities(1, mesh.edges(), boundaries.edges),
-                            make_entities(2, mesh.faces(), boundaries.faces)};
+  std::vector<Entities> all{make_entities(mesh, 0, {}), make_entities(mesh, 1, boundaries.edges),
+                            make_entities(mesh, 2, boundaries.faces)};
   std::vector<char> claimed(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
   for (Entities& entities : all) claim_nodes(mesh, entities, claimed);
   out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";

@@ -49,9 +49,8 @@ OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad
     : mesh_(mesh), groups_(groups) {
   number_nodes();
   if (quad_nodes == 9 && mesh.order == 2) add_middles();
-  faces_ = grouped(shell_count(), [this](int i) { return face(i); });
-  edges_ = grouped(segment_count(), [this](int i) { return edge(i); });
-  vertices_ = grouped(corner_count(), [this](int i) { return vertex(i); });
+  for (const int dimension : {0, 1, 2})
+    entities_[dimension] = grouped(count(dimension), [&](int i) { return entity(dimension, i); });
   group_by_thickness();
   for (const int dimension : {0, 1, 2}) name_groups(dimension);
 }
@@ -144,12 +143,12 @@ void OutputMesh::add_middles() {
 
 int OutputMesh::cad_face_count() const {
   int count = static_cast<int>(mesh_.faces.size());
-  for (const CadGroup& group : faces_) count = std::max(count, group.number);
+  for (const CadGroup& group : entities_[2]) count = std::max(count, group.number);
   return count;
 }
 
 void OutputMesh::group_by_thickness() {
-  for (const CadGroup& face : faces_) {
+  for (const CadGroup& face : entities_[2]) {
     if (face.number < 1 || face.number > static_cast<int>(mesh_.thicknesses.size())) continue;
     const std::string thickness = fmt::format("{:.6g}", mesh_.thicknesses[face.number - 1]);
     const ShellMesh::VaryingThickness* varying = varying_on(face.number);

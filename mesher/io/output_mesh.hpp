@@ -89,9 +89,8 @@ class OutputMesh {
   int entity(int dimension, int member) const;
   ElementNodes element_nodes(int dimension, int member) const;
 
-  const std::vector<CadGroup>& faces() const { return faces_; }        ///< shell elements by CAD face
-  const std::vector<CadGroup>& edges() const { return edges_; }        ///< segments by CAD edge
-  const std::vector<CadGroup>& vertices() const { return vertices_; }  ///< corners by CAD vertex
+  /// Shell elements by CAD face (2), segments by edge (1) or corners by vertex (0).
+  const std::vector<CadGroup>& entities(int dimension) const { return entities_[dimension]; }
   /// Groups by thickness, in the order of their first faces; empty if no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
@@ -128,9 +127,6 @@ class OutputMesh {
   void group_by_thickness();
   const ShellMesh::VaryingThickness* varying_on(int face) const;
   void name_groups(int dimension);
-  const std::vector<CadGroup>& entities(int dimension) const {
-    return dimension == 2 ? faces_ : dimension == 1 ? edges_ : vertices_;
-  }
   void use(int node, const char* what, std::size_t index);
 
   const ShellMesh& mesh_;
@@ -138,7 +134,7 @@ class OutputMesh {
   std::vector<Vector3> middles_;  ///< (quads) the middle of each, if quads have nine nodes; else empty
   std::vector<int> numbers_;
   std::vector<int> nodes_;
-  std::vector<CadGroup> faces_, edges_, vertices_;
+  std::array<std::vector<CadGroup>, 3> entities_;
   std::array<std::vector<NamedGroup>, 3> named_;
   std::vector<ThicknessGroup> thicknesses_;
 };

@@ -122,47 +122,39 @@ json off_geometry_to_json(const ShellMesh& mesh) {
 }
 
 json crossed_to_json(const ShellMesh& mesh) {
-  json edges = json::array();
-  for (const ShellMesh::CrossedEdge& edge : mesh.crossed_edges) {
-    edges.push_back(
-        {{"name", "Edge" + std::to_string(edge.edge)},
-         {"faces", {"Face" + std::to_string(edge.faces[0]), "Face" + std::to_string(edge.faces[1])}},
-         {"line", listed(edge.line, place_to_json)}});
-  }
-  return edges;
+  return listed(mesh.crossed_edges, [](const ShellMesh::CrossedEdge& edge) {
+    return json{{"name", name_of_entity(1, edge.edge)},
+                {"faces", {name_of_entity(2, edge.faces[0]), name_of_entity(2, edge.faces[1])}},
+                {"line", listed(edge.line, place_to_json)}};
+  });
 }
 
 /// The nodes of --node: name and place; none for those that are left out.
 json placed_to_json(const ShellMesh& mesh) {
-  json result = json::array();
-  for (const ShellMesh::PlacedNode& node : mesh.placed_nodes) {
+  return listed(mesh.placed_nodes, [&](const ShellMesh::PlacedNode& node) {
     const auto corner = std::find_if(mesh.corners.begin(), mesh.corners.end(),
                                      [&](const auto& other) { return other.vertex == node.vertex; });
-    json at;
-    if (corner != mesh.corners.end()) at = place_to_json(mesh.points[corner->node]);
-    result.push_back({{"name", node.name}, {"at", at}});
-  }
-  return result;
+    const bool found = corner != mesh.corners.end();
+    return json{{"name", node.name}, {"at", found ? place_to_json(mesh.points[corner->node]) : json()}};
+  });
 }
 
 /// The motion of each pair, and its nodes by their numbers in mesh files.
 json matches_to_json(const ShellMesh& mesh) {
-  json matches = json::array();
-  for (const ShellMesh::Match& match : mesh.matches) {
+  return listed(mesh.matches, [](const ShellMesh::Match& match) {
     const RigidMotion& motion = match.motion;
-    json nodes = json::array();
-    for (const auto& [a, b] : match.nodes) nodes.push_back({a + 1, b + 1});
     json moved{{"translation", place_to_json(motion.translation)}};
     if (motion.angle != 0)
       moved.update({{"center", place_to_json(motion.center)},
                     {"axis", place_to_json(motion.axis)},
                     {"degrees", motion.angle * 180 / std::numbers::pi}});
-    matches.push_back({{"from", name_of_entity(match.dimension, match.entities[0])},
-                       {"to", name_of_entity(match.dimension, match.entities[1])},
-                       {"motion", moved},
-                       {"nodes", nodes}});
-  }
-  return matches;
+    return json{{"from", name_of_entity(match.dimension, match.entities[0])},
+                {"to", name_of_entity(match.dimension, match.entities[1])},
+                {"motion", moved},
+                {"nodes", listed(match.nodes, [](const auto& pair) {
+                   return json{pair[0] + 1, pair[1] + 1};
+                 })}};
+  });
 }
 
 json suppressed_to_json(const ShellMesh& mesh) {

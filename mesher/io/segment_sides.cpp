@@ -39,7 +39,7 @@ std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
   for (int corner = 0; corner < mesh.corner_count(); ++corner)
     vertex_at.emplace(mesh.corner_node(corner), mesh.vertex(corner));
   std::vector<std::vector<int>> ends;
-  for (const CadGroup& edge : mesh.edges()) {
+  for (const CadGroup& edge : mesh.entities(1)) {
     ends.emplace_back();
     std::vector<int> from, to;
     for (const int segment : edge.members) {
@@ -93,9 +93,9 @@ std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
 }
 
 EntityBoundaries entity_boundaries(const OutputMesh& mesh) {
-  EntityBoundaries boundaries{std::vector<std::vector<int>>(mesh.faces().size()), ends_of_edges(mesh)};
+  EntityBoundaries boundaries{std::vector<std::vector<int>>(mesh.entities(2).size()), ends_of_edges(mesh)};
   std::unordered_map<int, std::size_t> place;
-  for (std::size_t i = 0; i < mesh.faces().size(); ++i) place[mesh.faces()[i].number] = i;
+  for (std::size_t i = 0; i < mesh.entities(2).size(); ++i) place[mesh.entities(2)[i].number] = i;
   for (const SegmentSide& side : segment_sides(mesh)) {
     const int edge = mesh.edge(side.segment), face = mesh.face(side.shell);
     if (edge > 0 && face > 0) boundaries.faces[place[face]].push_back(side.forward ? edge : -edge);

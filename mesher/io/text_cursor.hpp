@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -22,14 +23,25 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// The number that the whole text is, with or without a plus sign; nothing if it is none.
+inline std::string upper(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return result;
+}
+
+/// The number that the whole text is, without a plus sign; nothing if it is none.
 template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+std::optional<Number> exactly(std::string_view text) {
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// The same, with or without a plus sign.
+template <class Number>
+std::optional<Number> parsed(std::string_view text) {
+  return exactly<Number>(!text.empty() && text.front() == '+' ? text.substr(1) : text);
 }
 
 /// A position in a text (or a binary file with text in it). Its errors name the file and the line.

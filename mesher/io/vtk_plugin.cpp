@@ -38,28 +38,21 @@ class GridMaker {
   }
 
   vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
-    for (int i = 0; i < mesh_.shell_count(); ++i) {
-      const ElementNodes nodes = mesh_.shell_nodes(i);
-      add(nodes, vtk_cell_type(nodes), 2, mesh_.face(i));
-      q_->InsertNextValue(mesh_.is_quad(i) ? qualities[i] : 0);
-      thickness_->InsertNextValue(mean_thickness(mesh_, i));
-    }
-    // Lines and points have no q: colored by q, they get the color of "not a number".
-    for (int i = 0; i < mesh_.segment_count(); ++i) {
-      const ElementNodes nodes = mesh_.segment_nodes(i);
-      add(nodes, nodes.count == 3 ? VTK_QUADRATIC_EDGE : VTK_LINE, 1, mesh_.edge(i));
-      q_->InsertNextValue(std::numeric_limits<double>::quiet_NaN());
-    }
-    for (int i = 0; i < mesh_.corner_count(); ++i) {
-      add({{mesh_.corner_node(i)}, 1}, VTK_VERTEX, 0, mesh_.vertex(i));
-      q_->InsertNextValue(std::numeric_limits<double>::quiet_NaN());
-    }
+    for (const int dimension : {2, 1, 0})
+      for (int i = 0; i < mesh_.count(dimension); ++i) {
+        add(mesh_.element_nodes(dimension, i), dimension, mesh_.entity(dimension, i));
+        // Lines and points have no q: colored by q, they get the color of "not a number".
+        const bool shell = dimension == 2;
+        q_->InsertNextValue(!shell             ? std::numeric_limits<double>::quiet_NaN()
+                            : mesh_.is_quad(i) ? qualities[i]
+                                               : 0);
+        thickness_->InsertNextValue(shell ? mean_thickness(mesh_, i) : 0);
+      }
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(points());
     grid->SetCells(types_, cells_);
     for (const int dimension : {2, 1, 0}) grid->GetCellData()->AddArray(cad_[dimension]);
     grid->GetCellData()->AddArray(q_);
-    while (thickness_->GetNumberOfValues() < grid->GetNumberOfCells()) thickness_->InsertNextValue(0);
     if (!mesh_.thicknesses().empty()) grid->GetCellData()->AddArray(thickness_);
     for (const std::string& name : mesh_.set_names()) grid->GetCellData()->AddArray(set_of(name));
     return grid;
@@ -75,7 +68,11 @@ class GridMaker {
     return set;
   }
 
-  void add(const ElementNodes& nodes, int type, int dimension, int number) {
+  void add(const ElementNodes& nodes, int dimension, int number) {
+    const int type = dimension == 2     ? vtk_cell_type(nodes)
+                     : dimension == 0   ? VTK_VERTEX
+                     : nodes.count == 3 ? VTK_QUADRATIC_EDGE
+                                        : VTK_LINE;
     std::array<vtkIdType, 9> ids;
     std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](int node) { return mesh_.number(node) - 1; });
     cells_->InsertNextCell(nodes.count, ids.data());
