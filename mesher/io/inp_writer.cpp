@@ -21,7 +21,10 @@ namespace {
 constexpr int numbers_per_line = 16;        // numbers that Abaqus and CalculiX read per line
 constexpr int characters_of_a_number = 20;  // characters that they read per number
 
-void write_list(const std::vector<int>& numbers, TextWriter& out) {
+/// \param kind ELSET or NSET \param name with parameters that follow it
+void write_set(std::string_view kind, std::string_view name, const std::vector<int>& numbers,
+               TextWriter& out) {
+  out << '*' << kind << ", " << kind << '=' << name << '\n';
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const bool last = i + 1 == numbers.size() || (i + 1) % numbers_per_line == 0;
     out << numbers[i] << (last ? "\n" : ", ");
@@ -110,8 +113,7 @@ void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames&
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const std::vector<int> shells = written[i] ? std::vector<int>() : mesh.members(2, groups[i]);
     if (shells.empty()) continue;
-    out << "*ELSET, ELSET=" << names.of(2, i) << '\n';
-    write_list(OutputMesh::numbers_of(shells), out);
+    write_set("ELSET", names.of(2, i), OutputMesh::numbers_of(shells), out);
   }
 }
 
@@ -137,8 +139,7 @@ void write_side_sets(const OutputMesh& mesh, InpElement type, const SetNames& na
       if (set.empty()) continue;
       std::sort(set.begin(), set.end());
       const std::string name = fmt::format("{}_Side{}", names.of(1, i), side + 1);
-      out << "*ELSET, ELSET=" << name << '\n';
-      write_list(set, out);
+      write_set("ELSET", name, set, out);
       surface += fmt::format("{}, S{}\n", name, side + 1);
     }
     if (lies_in_plane(type) && !surface.empty())
@@ -150,9 +151,8 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
   for (const int dimension : {2, 1, 0})
     for (std::size_t i = 0; i < mesh.groups(dimension).size(); ++i) {
       const std::vector<int> nodes = mesh.node_numbers(dimension, mesh.groups(dimension)[i]);
-      if (nodes.empty() || names.of(dimension, i).empty()) continue;
-      out << "*NSET, NSET=" << names.of(dimension, i) << '\n';
-      write_list(nodes, out);
+      if (!nodes.empty() && !names.of(dimension, i).empty())
+        write_set("NSET", names.of(dimension, i), nodes, out);
     }
 }
 
@@ -165,8 +165,7 @@ void write_matches(const OutputMesh& mesh, TextWriter& out) {
     for (const int side : {0, 1}) {
       std::vector<int> nodes;
       for (const auto& pair : match.nodes) nodes.push_back(mesh.number(pair[side]));
-      out << fmt::format("*NSET, NSET=Match{}_{}, UNSORTED\n", number, side == 0 ? 'a' : 'b');
-      write_list(nodes, out);
+      write_set("NSET", fmt::format("Match{}_{}, UNSORTED", number, side == 0 ? 'a' : 'b'), nodes, out);
     }
   }
 }
@@ -203,11 +202,11 @@ void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
   const InpFamily family = family_of(type);
   const bool is_thick = family != InpFamily::axisymmetric;
   for (const ThicknessGroup& group : mesh.thicknesses()) {
-    out << "*ELSET, ELSET=" << group.name << '\n';
-    if (mesh.groups(2).empty())  // no sets of faces were asked for
-      write_list(OutputMesh::numbers_of(group.members), out);
-    else
-      for (const int face : group.faces) out << "Face" << face << '\n';
+    const bool has_faces = !mesh.groups(2).empty();  // sets of faces were asked for
+    write_set("ELSET", group.name, has_faces ? std::vector<int>() : OutputMesh::numbers_of(group.members),
+              out);
+    for (const int face : group.faces)
+      if (has_faces) out << "Face" << face << '\n';
     out << section_card(family) << ", ELSET=" << group.name << ", MATERIAL=Material"
         << (group.varies && is_thick ? ", NODAL THICKNESS\n" : "\n");
     if (is_thick) out << group.thickness << '\n';

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "geometry/base/error.hpp"
@@ -17,21 +19,11 @@ namespace {
 /// comes last.
 template <class NumberOf>
 std::vector<CadGroup> grouped(int count, NumberOf number_of) {
-  int largest = 0;
-  for (int i = 0; i < count; ++i) largest = std::max(largest, number_of(i));
-  std::vector<int> sizes(largest + 1, 0);
-  for (int i = 0; i < count; ++i) ++sizes[std::max(number_of(i), 0)];
+  constexpr int last = std::numeric_limits<int>::max();
+  std::map<int, std::vector<int>> members;
+  for (int i = 0; i < count; ++i) members[number_of(i) > 0 ? number_of(i) : last].push_back(i);
   std::vector<CadGroup> groups;
-  std::vector<int> slot(largest + 1, -1);
-  const auto open = [&](int number) {
-    if (sizes[number] == 0) return;
-    slot[number] = static_cast<int>(groups.size());
-    groups.push_back({number, {}});
-    groups.back().members.reserve(sizes[number]);
-  };
-  for (int number = 1; number <= largest; ++number) open(number);
-  open(0);
-  for (int i = 0; i < count; ++i) groups[slot[std::max(number_of(i), 0)]].members.push_back(i);
+  for (auto& [number, own] : members) groups.push_back({number == last ? 0 : number, std::move(own)});
   return groups;
 }
 

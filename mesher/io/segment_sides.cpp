@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "geometry/base/side_key.hpp"
@@ -52,19 +53,12 @@ std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
       if (found != vertex_at.end() && found->second > 0 && edge.number > 0)
         ends.back().push_back(sign * found->second);
     };
-    std::vector<int> sorted_from = from, sorted_to = to;
-    std::sort(sorted_from.begin(), sorted_from.end());
-    std::sort(sorted_to.begin(), sorted_to.end());
-    const auto has = [](const std::vector<int>& sorted, int node) {
-      return std::binary_search(sorted.begin(), sorted.end(), node);
-    };
+    const std::unordered_set<int> starts(from.begin(), from.end()), stops(to.begin(), to.end());
     // A closed edge begins and ends at its vertex, wherever that is in the chain.
-    for (const int node : from) {
-      if (!has(sorted_to, node) || vertex_at.count(node) > 0) add(node, 1);
-    }
-    for (const int node : to) {
-      if (!has(sorted_from, node) || vertex_at.count(node) > 0) add(node, -1);
-    }
+    for (const int node : from)
+      if (!stops.contains(node) || vertex_at.contains(node)) add(node, 1);
+    for (const int node : to)
+      if (!starts.contains(node) || vertex_at.contains(node)) add(node, -1);
   }
   return ends;
 }

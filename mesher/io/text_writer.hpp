@@ -25,7 +25,11 @@ class TextWriter {
   TextWriter() = default;
 
   TextWriter& operator<<(std::string_view text) {
-    if (file_ != nullptr && text.size() > capacity / 4) return pass_on(text);
+    if (file_ != nullptr && text.size() > capacity / 4) {
+      flush();
+      file_->write(text);
+      return *this;
+    }
     reserve(text.size());
     std::memcpy(buffer_.data() + size_, text.data(), text.size());
     size_ += text.size();
@@ -54,24 +58,24 @@ class TextWriter {
   }
   TextWriter& padded(int value, int width) {
     char digits[16];
-    return padded({digits, to_text(digits, value)}, width);
+    return padded({digits, std::to_chars(digits, digits + sizeof digits, value).ptr}, width);
   }
   /// In Fortran's E notation with 17 significant digits, right-aligned in `width` columns.
   TextWriter& scientific(double value, int width) {
     char digits[32];
     const auto end =
         std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 16).ptr;
-    return padded({digits, static_cast<std::size_t>(end - digits)}, width);
+    return padded({digits, end}, width);
   }
 
   /// The shortest text that reads back as the same double. If that is longer than `most` characters, the
   /// closest text that fits: CalculiX reads 20 characters and would lose the end of an exponent.
   TextWriter& within(double value, int most) {
     char digits[32];
-    const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     for (int precision = 16; end - digits > most && precision > 0; --precision)
       end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, precision).ptr;
-    return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
+    return *this << std::string_view(digits, end);
   }
 
   void flush() {
@@ -87,21 +91,12 @@ class TextWriter {
  private:
   static constexpr std::size_t capacity = std::size_t{1} << 20;
 
-  TextWriter& pass_on(std::string_view text) {
-    flush();
-    file_->write(text);
-    return *this;
-  }
   void reserve(std::size_t bytes) {
     if (bytes <= buffer_.size() - size_) return;
     if (file_ != nullptr)
       flush();
     else
       buffer_.resize(2 * buffer_.size() + bytes + capacity / 2);
-  }
-  template <class Number>
-  static std::size_t to_text(char* begin, Number value) {
-    return static_cast<std::size_t>(std::to_chars(begin, begin + 16, value).ptr - begin);
   }
   template <class Number>
   TextWriter& number(Number value) {
