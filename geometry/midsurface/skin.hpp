@@ -4,6 +4,7 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <Bnd_Box.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Face.hxx>
@@ -18,7 +19,6 @@
 #include <vector>
 
 #include "geometry/midsurface/box_tree.hpp"
-#include "geometry/midsurface/closest_point.hpp"
 #include "geometry/midsurface/inside_test.hpp"
 
 namespace quadrille {
@@ -68,8 +68,15 @@ class SkinFace {
   double area_ = 0;
   Bnd_Box box_;
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
-  std::shared_ptr<ClosestPoint> inverse_;
+  Handle(ShapeAnalysis_Surface) inverse_;
   std::shared_ptr<InsideTest> inside_;
+};
+
+/// A triangle of a face.
+struct SkinTriangle {
+  std::array<gp_Pnt, 3> points;  ///< on the surface
+  std::array<gp_Pnt2d, 3> uv;
+  double area = 0;
 };
 
 /// Intersects lines with a face: with its triangles first, then with its exact surface; a plane with many
@@ -83,23 +90,18 @@ class RayFace {
   /// \param face with triangles unless it has many holes; it must outlive this. \param near points closer to
   /// a line than this lie on it.
   RayFace(const SkinFace& face, double near);
-  /// Time: logarithmic in the triangles.
-  std::vector<Hit> hits(const gp_Lin& line) const;
+  /// Hits about between two parameters of the line. Time: logarithmic in the triangles.
+  std::vector<Hit> hits(const gp_Lin& line, double from, double to) const;
 
  private:
-  struct Flat {
-    gp_Pnt corner;
-    gp_Vec ab, ac;  ///< the sides that start at the corner
-    std::array<gp_Pnt2d, 3> uv;
-  };
-  std::optional<Hit> hit(const gp_Lin& line, const Flat& flat) const;
+  std::optional<Hit> hit(const gp_Lin& line, const SkinTriangle& flat) const;
   /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
 
   const SkinFace& face_;
   const BRepAdaptor_Surface& surface_;
   std::optional<gp_Pln> plane_;  ///< of a face with many holes
-  std::vector<Flat> triangles_;
+  std::vector<SkinTriangle> triangles_;
   std::optional<BoxTree> boxes_;  ///< of the triangles
   double near_;
 };
