@@ -13,7 +13,6 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -66,22 +65,9 @@ struct SolidMiddle {
 double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
   const BRepMesh_IncrementalMesh triangulated(copy, deflection, Standard_False, 0.4, Standard_False);
-  double six_times = 0;
-  for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
-    TopLoc_Location place;
-    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(it.Current()), place);
-    if (mesh.IsNull()) continue;
-    double face = 0;
-    for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-      std::array<int, 3> nodes{};
-      mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-      std::array<gp_XYZ, 3> corners;
-      for (int j = 0; j < 3; ++j) corners[j] = mesh->Node(nodes[j]).Transformed(place.Transformation()).XYZ();
-      face += corners[0].DotCross(corners[1], corners[2]);
-    }
-    six_times += it.Current().Orientation() == TopAbs_REVERSED ? -face : face;
-  }
-  return std::abs(six_times) / 6;
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(copy, properties, Standard_False, Standard_False, Standard_True);
+  return std::abs(properties.Mass());
 }
 
 /// The volume within about a thousandth. OpenCASCADE's integral with a tolerance is exact for plain faces,
