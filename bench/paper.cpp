@@ -111,16 +111,12 @@ json measures(const QuadMesh& quads) {
 
 json improved(const TriangleMesh& mesh, const QuadMesh& quads) {
   ExecutionContext context(1);
-  ImproveReport report;
   std::vector<int> renumbered;
   const Stopwatch watch;
-  const QuadMesh result = improve_on(mesh, quads, {}, renumbered, report, context);
+  const QuadMesh result = improve_on(mesh, quads, {}, renumbered, context);
   const double seconds = watch.seconds();
   json entry = measures(result);
   entry["seconds"] = seconds;
-  entry["quad_vertex_merges"] = report.quad_vertex_merges;
-  entry["doublet_collapses"] = report.doublet_collapses;
-  entry["other_moves"] = report.valence_moves;
   return entry;
 }
 
@@ -379,12 +375,10 @@ void print_row(const char* method, const json& entry) {
   const json& after = entry["improved"];
   fmt::print(
       "  {:9} {:10.4f} s  left {:5}  q {:.3f} / {:.3f}  irregular {:5.2f} %   improved: q {:.3f} / {:.3f}  "
-      "irregular {:5.2f} %  ({:.2f} s, {} quad-vertex merges, {} doublets, {} other moves)\n",
+      "irregular {:5.2f} %  ({:.2f} s)\n",
       method, entry["seconds"].get<double>(), entry["triangles"].get<int>(), entry["q_mean"].get<double>(),
       entry["q_min"].get<double>(), entry["irregular_percent"].get<double>(), after["q_mean"].get<double>(),
-      after["q_min"].get<double>(), after["irregular_percent"].get<double>(), after["seconds"].get<double>(),
-      after["quad_vertex_merges"].get<int>(), after["doublet_collapses"].get<int>(),
-      after["other_moves"].get<int>());
+      after["q_min"].get<double>(), after["irregular_percent"].get<double>(), after["seconds"].get<double>());
   std::fflush(stdout);
 }
 

@@ -115,7 +115,7 @@ class Rooms(unittest.TestCase):
         knowing = {name for name, text in files.items() if re.search(r"\bGridKind\b", text)}
         self.assertEqual(knowing, {"mesher/edges/face_sides.hpp", "mesher/edges/face_sides.cpp", "mesher/faces/face_grid.cpp"})
         questions = re.findall(r"  bool (\w+)\(\) const", files["mesher/edges/face_sides.hpp"])
-        self.assertGreater(len(questions), 5)
+        self.assertGreater(len(questions), 2)
         asking = re.compile(rf"[sS]ides_?(?:\[\w+\])?\.(?:{'|'.join(questions)})\(\)")
         self.assertTrue(asking.search(files["mesher/edges/face_plan.cpp"]))
         self.assertEqual([name for name, text in files.items() if not name.startswith("mesher/edges/") and asking.search(text)], [])

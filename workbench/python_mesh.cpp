@@ -322,8 +322,7 @@ PythonMesh recombine_arrays(const py::object& points, const py::object& triangle
   if (improve) {
     std::vector<int> renumbered(mesh.points.size());
     std::iota(renumbered.begin(), renumbered.end(), 0);
-    ImproveReport report;
-    quads = improve_on(mesh, quads, {}, renumbered, report, context);
+    quads = improve_on(mesh, quads, {}, renumbered, context);
   }
   ShellMesh result;
   result.points = std::move(quads.points);

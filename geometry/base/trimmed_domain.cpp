@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/base/whole_number.hpp"
+
 namespace quadrille {
 
 TrimmedDomain::TrimmedDomain(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -26,7 +28,7 @@ TrimmedDomain::TrimmedDomain(std::vector<Segment> segments) : segments_(std::mov
 }
 
 int TrimmedDomain::slab(double y) const {
-  return std::clamp(static_cast<int>((y - low_.y()) * slab_scale_), 0, slab_count_ - 1);
+  return cell_at((y - low_.y()) * slab_scale_, slab_count_);
 }
 
 bool TrimmedDomain::inside(const Vector2& p) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// Conversion of computed numbers to integers. Internal.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,12 @@ inline int to_int(double value) {
 /// The nearest integer, halves away from zero. Throws as to_int() does.
 inline int round_to_int(double value) {
   return to_int(std::round(value));
+}
+
+/// The cell, of `count` from 0, that a place counted in cells falls into; the first or the last one for
+/// places beyond, and the first for what is no number.
+inline int cell_at(double place, int count) {
+  return place > 0 ? static_cast<int>(std::min(place, count - 1.0)) : 0;
 }
 
 }  // namespace quadrille

@@ -20,6 +20,7 @@
 #include <Eigen/LU>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/whole_number.hpp"
 
 namespace quadrille {
 
@@ -50,8 +51,7 @@ struct FaceSurface::View {
 
   int nearest(const Vector2& p) const {
     const Vector2 t = (p - low).cwiseQuotient((high - low).cwiseMax(1e-300)) * buckets;
-    const auto bucket = [](double v) { return std::clamp(static_cast<int>(v), 0, buckets - 1); };
-    return near[bucket(t.y()) * buckets + bucket(t.x())];
+    return near[cell_at(t.y(), buckets) * buckets + cell_at(t.x(), buckets)];
   }
 
   void fill_buckets() {

@@ -253,8 +253,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
         result.crossed_edges.size(), edge, edge);
   }
   if (!result.filled_holes.empty())
-    say("note: {} holes, pockets and bosses are left out; the report (--report) lists them",
-        result.filled_holes.size());
+    say("note: {} holes, pockets and bosses are left out; --report lists them", result.filled_holes.size());
   tell_poor_quads(result);
   if (meshed.middle) print(middle_table(*meshed.middle));
   print(quality_table(measured.elements.quality));

@@ -269,7 +269,7 @@ class CountProblem {
       for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.chords.of(edge)] &= is_grid; });
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.chords.of(edge)] = 0;
-      if (sides.rest.empty() || (sides.may_be_odd() && targets_.stride == 2)) continue;
+      if (sides.rest.empty() || (sides.may_be_odd && targets_.stride == 2)) continue;
       const int node = add_node(face, BalanceProblem::Rule::even);
       for (const EdgeId edge : sides.rest) add_term(edge, node, 1);
     }

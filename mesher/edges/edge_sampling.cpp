@@ -141,7 +141,7 @@ class TargetFinder {
       demand_.targets.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
       // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
-      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], static_cast<int>(wanted));
+      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], to_int(wanted));
       raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
       add_heads(i);
       if (plan_.prescribes(i)) {

@@ -95,7 +95,7 @@ FacePlan plan_of(const CadShape& shape, const CadFace& face, FaceSides sides, bo
     }
   }
   plan.is_filled = sides.is_filled();
-  plan.keeps_rows = sides.has_whole_rows() && plan.has_kept_edge;
+  plan.keeps_rows = sides.is_filled() && plan.has_kept_edge;
   if (sides.has_four_sides()) {
     const GridSize grid = size_of(sides_of(face, sides, nodes));
     plan.grid_quads = grid.columns * grid.rows;

@@ -1,4 +1,4 @@
-/// Sorts outlines by their corners: four, three or five, or two loops.
+/// Finds outlines that grids fill: with four corners, or two loops without.
 
 #include "mesher/edges/face_sides.hpp"
 
@@ -103,13 +103,13 @@ class SideFinder {
     return side;
   }
 
-  /// Finds outlines with three to five corners.
+  /// Finds outlines with four corners.
   void take_corners(const Walk& walk, FaceSides& sides) const {
     const auto corners = corners_of(walk);
-    if (!corners || corners->size() < 3 || corners->size() > 5) return;
+    sides.may_be_odd = corners && (corners->size() == 3 || corners->size() == 5);
+    if (!corners || corners->size() != 4) return;
     for (const int corner : *corners) sides.starts.push_back(walk.coedges[corner]);
-    sides.kind = corners->size() == 4 ? GridKind::four : GridKind::odd;
-    if (corners->size() != 4) return;
+    sides.kind = GridKind::four;
     std::array<FaceSide, 4> four;
     for (int c = 0; c < 4; ++c) four[c] = between(walk, (*corners)[c], (*corners)[(c + 1) % 4]);
     add_pairs(four[0], turned(four[2]), sides);
@@ -265,7 +265,7 @@ void FaceSides::drop_facing() {
     }
   }
   facing.clear();
-  if (!is_star()) drop_grid();
+  drop_grid();
 }
 
 FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,

@@ -27,7 +27,6 @@ struct FacingPair {
 enum class GridKind {
   other,
   four,  ///< one loop with four corners
-  odd,   ///< one loop with three or five corners: that many grids around a point
   ring,  ///< two loops without corners
   holed  ///< one loop with four corners, and holes without corners
 };
@@ -40,27 +39,22 @@ struct FaceSides {
   /// (four) index of the first pair whose sides run across those of the first one
   std::size_t across = 0;
   std::vector<EdgeId> rest;  ///< edges whose counts must have an even sum
-  int outer = 0;             ///< index of the wire with the corners
-  /// (four, odd, holed) index of the first coedge of each side in that wire
+  /// Three or five corners: the sum may be odd where the triangle that then remains is subdivided. One more
+  /// node on a side of a small triangle would make elements far shorter than they are wide.
+  bool may_be_odd = false;
+  int outer = 0;  ///< index of the wire with the corners
+  /// (four, holed) index of the first coedge of each side in that wire
   std::vector<int> starts;
 
-  /// Whether a grid fills the face from side to side: its nodes face each other, and its sides need no room
-  /// between them.
+  /// Whether a grid fills the face: its nodes face each other, its sides need no room between them, and rows
+  /// run from end to end, or all the way around.
   bool is_filled() const { return kind != GridKind::other && kind != GridKind::holed; }
   /// Whether the face has four sides, each with one count.
   bool is_rectangle() const { return kind == GridKind::four && facing.size() == 2; }
   /// Whether the face has four sides, which may be cut into parts with counts of their own.
   bool has_four_sides() const { return kind == GridKind::four; }
-  /// Whether rows run along the face from end to end, or all the way around.
-  bool has_whole_rows() const { return kind == GridKind::four || kind == GridKind::ring; }
   /// Whether holes take the place of cells of its grid.
   bool has_holes() const { return kind == GridKind::holed; }
-  /// Whether the counts of `rest` divide the face into grids that meet at a point inside.
-  bool is_star() const { return kind == GridKind::odd; }
-  /// Whether `rest` may have an odd sum where the triangle that then remains is subdivided. One more node at
-  /// the base of a wedge, the end of a strip or on a side of a small triangle would make elements far shorter
-  /// than they are wide; grids that meet at a point need no even number.
-  bool may_be_odd() const { return is_star() || (!facing.empty() && !has_holes()); }
 
   /// No grid fills the face: it ends before its corners.
   void drop_grid() { kind = GridKind::other; }

@@ -191,7 +191,7 @@ class RowFinder {
   /// The edge opposite another one across a four-sided face or ring; none if there is no single such edge.
   EdgeId opposite(FaceId face, EdgeId edge) const {
     const FaceSides& sides = sides_[face];
-    if (!sides.has_whole_rows()) return {};
+    if (!sides.is_filled()) return {};
     for (const FacingPair& pair : sides.facing) {
       if (pair.first.size() != 1 || pair.second.size() != 1) continue;
       if (pair.first[0].edge == edge) return pair.second[0].edge;

@@ -41,18 +41,17 @@ class SingleSegments {
            targets_.wanted[edge] * targets_.stride <= most_wanted;
   }
 
-  /// Chords on which sums over sides of several edges depend keep their segments, and those of faces that are
-  /// filled in blocks.
+  /// Chords on which sums over sides of several edges depend keep their segments, and so do the sides around
+  /// holes in grids, and those of triangles, which could no longer be subdivided.
   void keep_sums(const FaceSides& sides) {
-    const bool has_blocks = sides.has_holes() || sides.is_star();
     for (const FacingPair& pair : sides.facing) {
       std::map<EdgeId, int> sums;
       for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];
       for (const SideEdge& edge : pair.second) --sums[chord(edge.edge)];
       for (const auto& [id, sum] : sums)
-        if (sum != 0 || has_blocks) single_[id] = 0;
+        if (sum != 0 || sides.has_holes()) single_[id] = 0;
     }
-    if (!sides.is_star()) return;
+    if (!sides.may_be_odd) return;
     for (const EdgeId edge : sides.rest) single_[chord(edge)] = 0;
   }
 

@@ -9,7 +9,6 @@
 
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
-#include "mesher/faces/spokes.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
@@ -206,28 +205,6 @@ class GridMaker {
     return true;
   }
 
-  /// Meshes an outline with three or five corners as that many grids around one point.
-  bool make_odd(const std::vector<Line>& sides) {
-    const int k = static_cast<int>(sides.size());
-    if (k != 3 && k != 5) return false;
-    const auto middle = [&](const Line& feet) {
-      Vector2 sum(0, 0);
-      for (const int foot : feet) sum += grid_.uv[foot] / k;
-      return add_point(sum);
-    };
-    const auto row = [&](int from, int to, int segments) {
-      Line line{from};
-      for (int j = 1; j < segments; ++j)
-        line.push_back(add_between(from, to, static_cast<double>(j) / segments));
-      line.push_back(to);
-      return line;
-    };
-    return fill_around_point(sides, middle, row,
-                             [&](const Line& bottom, const Line& right, const Line& top, const Line& left) {
-                               fill(bottom, right, turned(top), turned(left));
-                             });
-  }
-
   /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
   bool make_holed(const std::vector<Line>& sides, const std::vector<Line>& loops, int outer,
                   const std::vector<HoleBlock>& blocks) {
@@ -412,8 +389,7 @@ std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& 
                 loops.size() == plan.hole_blocks.size() + 1 &&
                 maker.make_holed(sides, loops, outer, plan.hole_blocks);
     else
-      is_made =
-          loops.size() == 1 && (kind == GridKind::four ? maker.make_four(sides) : maker.make_odd(sides));
+      is_made = loops.size() == 1 && maker.make_four(sides);
   }
   if (!is_made) return std::nullopt;
   FaceGrid grid = std::move(maker).grid();

@@ -23,10 +23,9 @@ struct FaceGrid {
   int rings = 0;                          ///< least number of rings of quads around a hole; 0 = no holes
 };
 
-/// Meshes a face as one grid, as rows between two loops, as three or five grids that meet in a point, or as a
-/// grid with blocks replaced by holes. With holes, the nodes inside must still be moved,
-/// and quads may be folded until then. \return nothing if the outline allows no grid, or if the grid would
-/// fold or miss the sizing field. Time: linear in the points.
+/// Meshes a face as one grid, as rows between two loops, or as a grid with blocks replaced by holes. With
+/// holes, the nodes inside must still be moved, and quads may be folded until then. \return nothing if the
+/// outline allows no grid, or if the grid would fold or miss the sizing field. Time: linear in the points.
 std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& plan,
                                   const FaceSurface& surface, SizingField::Sampler& size_at,
                                   const ExecutionContext& context = {});

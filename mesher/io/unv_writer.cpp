@@ -1,7 +1,7 @@
-/// I-deas universal file: datasets 2411 (nodes), 2412 (elements) and 2467 (groups), as FreeCAD and Salome
-/// read them. Eight-node quads have descriptor 45 (plane stress), which FreeCAD, Salome, Gmsh and ElmerGrid
-/// read; ElmerGrid does not know 95 (thin shell). Based on: the dataset descriptions of the University of
-/// Cincinnati's SDRL.
+/// I-deas universal file: datasets 164 (units), 2420 (coordinate system), 2411 (nodes), 2412 (elements) and
+/// 2467 (groups), as FreeCAD and Salome read them. Eight-node quads have descriptor 45 (plane stress), which
+/// FreeCAD, Salome, Gmsh and ElmerGrid read; ElmerGrid does not know 95 (thin shell). Based on: the dataset
+/// descriptions of the University of Cincinnati's SDRL.
 
 #include <algorithm>
 #include <string>
@@ -43,6 +43,24 @@ class Fields {
   TextWriter& out_;
   int count_ = 0;
 };
+
+/// Units and the coordinate system, as FreeCAD and Salome write them. Without them, their reader searches the
+/// whole file for each, which takes half of its time. It multiplies coordinates by the first factor, so the
+/// units are "user defined", not those of millimeters.
+void write_header(TextWriter& out) {
+  begin_dataset(164, out);
+  out << "         9        User defined         2\n"
+         "    1.0000000000000000E+0    1.0000000000000000E+0    1.0000000000000000E+0\n"
+         "    2.7314999999999998E+2\n";
+  end_dataset(out);
+  begin_dataset(2420, out);
+  out << "         1\nquadrille\n         1         0         0\nGlobal Cartesian Coordinate System\n"
+         "    1.0000000000000000E+0    0.0000000000000000E+0    0.0000000000000000E+0\n"
+         "    0.0000000000000000E+0    1.0000000000000000E+0    0.0000000000000000E+0\n"
+         "    0.0000000000000000E+0    0.0000000000000000E+0    1.0000000000000000E+0\n"
+         "    0.0000000000000000E+0    0.0000000000000000E+0    0.0000000000000000E+0\n";
+  end_dataset(out);
+}
 
 void write_nodes(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2411, out);
@@ -126,6 +144,7 @@ void write_groups(const OutputMesh& mesh, TextWriter& out) {
 }  // namespace
 
 void write_unv(const OutputMesh& mesh, TextWriter& out) {
+  write_header(out);
   write_nodes(mesh, out);
   write_elements(mesh, out);
   write_groups(mesh, out);

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <utility>
 
+#include "geometry/base/whole_number.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/second_order.hpp"
 #include "mesher/mesh/sides.hpp"
@@ -128,7 +129,7 @@ QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size
     summary.sj_min = std::min(summary.sj_min, corners.scaled_jacobian);
     summary.sj_mean += corners.scaled_jacobian;
     measure_jacobian(mesh, i, corners, summary);
-    ++summary.q_histogram[std::min(static_cast<int>(corners.q * 20), 19)];
+    ++summary.q_histogram[cell_at(corners.q * 20, 20)];
     const double aspect = corners.longest / std::max(corners.shortest, std::numeric_limits<double>::min());
     summary.aspect_max = std::max(summary.aspect_max, aspect);
     summary.aspect_mean += aspect;

@@ -1,5 +1,5 @@
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018): coloring,
-/// exchange along chains of two colors, removal of a color. The cost of an exchange is ours.
+/// exchange along chains of two colors, removal of a color.
 
 #include "mesher/pairing/recombine.hpp"
 
@@ -10,7 +10,6 @@
 #include "mesher/pairing/augmenting_paths.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
 #include "mesher/pairing/free_triangles.hpp"
-#include "mesher/pairing/kempe_chains.hpp"
 
 namespace quadrille {
 
@@ -47,17 +46,13 @@ QuadMesh remove_color(const CostedColoring& coloring, const TriangleMesh& mesh) 
                       [&](int t) -> const std::array<int, 3>& { return coloring.corners(t); });
 }
 
-/// Assigns the removed color by cost, then exchanges it along paths and chains.
-CostedColoring color_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
-                                ExecutionContext& context) {
+/// Assigns the removed color by cost, then exchanges it along paths.
+CostedColoring color_by_quality(const TriangleMesh& mesh, ExecutionContext& context) {
   CostedColoring coloring(mesh, context);
   coloring.compute_costs(mesh.points, context);
   color_by_cost(coloring, context);
-  if (augment(coloring, free_triangles(coloring), {}, context) > 0 &&
-      migrate_free_triangles(coloring, mesh.points, context) > 0)
-    move_free(coloring, context);
-  context.check();
-  if (options.exchange == Exchange::where_it_gains) exchange_chains(coloring, mesh.points, context);
+  if (augment(coloring, free_triangles(coloring), {}, context) > 0)
+    migrate_free_triangles(coloring, mesh.points, context);
   context.check();
   return coloring;
 }
@@ -86,11 +81,10 @@ EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std
   return coloring;
 }
 
-QuadMesh recombine_by_quality(const TriangleMesh& mesh, const RecombineOptions& options,
-                              ExecutionContext& context) {
+QuadMesh recombine_by_quality(const TriangleMesh& mesh, ExecutionContext& context) {
   const CostedColoring coloring = [&] {
     const StageTimer timer(context, Stage::color);
-    return color_by_quality(mesh, options, context);
+    return color_by_quality(mesh, context);
   }();
   const StageTimer timer(context, Stage::recombine);
   return remove_color(coloring, mesh);
@@ -118,7 +112,7 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
 QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
                             ExecutionContext& context) {
   return options.method == Method::paper ? recombine_as_in_paper(mesh, options, context)
-                                         : recombine_by_quality(mesh, options, context);
+                                         : recombine_by_quality(mesh, context);
 }
 
 }  // namespace

@@ -10,9 +10,8 @@ namespace quadrille {
 
 /// Pairs the triangles of a mesh into quads: colors its edges, no two alike in a triangle, and removes one
 /// color. That color is given to the edges whose quads are best, then brought to every triangle, along
-/// alternating paths or by triangles that migrate until they meet. Last, it is exchanged with the other two
-/// along chains (kempe_chains.hpp) where quality or valence gains. The other two colors are completed then.
-/// An odd cycle of them keeps one blank edge, since another choice of the removed color would cost quality.
+/// alternating paths or by triangles that migrate until they meet. The other two colors are not completed:
+/// an odd cycle of them would keep a blank edge.
 /// With Method::paper all three colors are assigned before one is chosen. Points are kept (same indices and
 /// places). Edges are kept too, unless triangles have to be walked. No triangle remains in a connected piece
 /// (of one tag) with an even number of them, one in a piece with an odd number (Leftovers::leave may leave

@@ -11,9 +11,6 @@ enum class Method {
   paper     ///< as in the 2018 paper: three colors in the order of the mesh, some steps random
 };
 
-/// Whether colors are exchanged along chains where angles or valence gain (quality only).
-enum class Exchange { where_it_gains, never };
-
 /// What becomes of triangles without an edge of the removed color (paper only: `quality` pairs them).
 enum class Leftovers {
   pair,
@@ -24,8 +21,7 @@ enum class Leftovers {
 struct RecombineOptions {
   Method method = Method::quality;  ///< how colors are given
   std::uint64_t seed = 1;           ///< for the random choices of the paper's method; `quality` makes none
-  Exchange exchange = Exchange::where_it_gains;  ///< whether colors are exchanged
-  Leftovers leftovers = Leftovers::pair;         ///< what becomes of unpaired triangles
+  Leftovers leftovers = Leftovers::pair;  ///< what becomes of unpaired triangles
 };
 
 }  // namespace quadrille

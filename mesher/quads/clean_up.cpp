@@ -1,6 +1,6 @@
 /// Topological clean-up of quad meshes.
 /// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
-/// (quad-vertex merge, doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
+/// (doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
 /// (1997); Bunin, Non-local topological clean-up (2006), for the idea of remeshing small patches inside their
 /// boundary.
 
@@ -30,13 +30,12 @@ constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all 
 constexpr double resize_cost = 0.2;   ///< cost of each node more or fewer: keeps the density
 constexpr double drift_cost = 50;     ///< cost of each added node, times the share of quads already gained
 
-/// A replacement: the quads to remove and the quads that take their place. One node may move with them.
+/// A replacement: the quads to remove and the quads that take their place.
 struct Change {
   std::array<int, max_patch> old_quads;
   int old_count = 0;
   std::array<Quad, max_patch> quads;
   int count = 0;
-  int moved = -1;  ///< node to move to the mean of its neighbors; -1 = none
 
   bool add(int quad) {
     if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
@@ -52,9 +51,9 @@ struct Change {
 class CleanUp : private EditedMesh {
  public:
   /// \param doubtful (nodes) in: 1 = start here, empty = all; out, by write_back(): the same for next time.
-  CleanUp(SurfaceMesh& surface_mesh, const MeshSurface& surface, ImproveReport& report,
-          std::vector<char>& doubtful, const ExecutionContext& context)
-      : EditedMesh(surface_mesh, context), doubtful_(doubtful), surface_(surface), report_(report) {
+  CleanUp(SurfaceMesh& surface_mesh, const MeshSurface& surface, std::vector<char>& doubtful,
+          const ExecutionContext& context)
+      : EditedMesh(surface_mesh, context), doubtful_(doubtful), surface_(surface) {
     if (doubtful_.empty()) doubtful_.assign(mesh_.mesh.points.size(), 1);
     tried_.assign(tried_slots, 0);
   }
@@ -71,28 +70,13 @@ class CleanUp : private EditedMesh {
     return any;
   }
 
-  /// Closes quads with two opposite corners under 45 degrees: the two blunt corners become one node.
-  bool merge_slender_quads() {
-    bool any = false;
-    SparseCheck check(context_);
-    for (int quad = 0; quad < topology_.size(); ++quad) {
-      check();
-      if (topology_.alive(quad)) any |= merge_slender(quad);
-    }
-    return any;
-  }
-
   /// Refills small patches around irregular nodes where that improves the valences.
   bool improve_valences();
 
   void write_back();
 
  private:
-  double cost_change(const Change& change) const;
-  bool apply(Change& change, double allowed_cost);
   bool collapse_doublet(int node);
-  bool merge_slender(int quad);
-  bool merge_corners(int quad, int corner);
 
   double cost_at(int node) const;
   bool improve_round(int node);
@@ -118,74 +102,9 @@ class CleanUp : private EditedMesh {
   std::vector<std::uint64_t> tried_;  ///< fingerprints of patches without gain, indexed by their low bits
 
   const MeshSurface& surface_;
-  ImproveReport& report_;
   std::vector<int> queue_;  ///< nodes whose surroundings will be tried
   std::vector<char> queued_;
 };
-
-double CleanUp::cost_change(const Change& change) const {
-  std::array<int, 4 * max_patch> nodes, delta;
-  int count = 0;
-  const auto tally = [&](const Quad& quad, int by) {
-    for (const int node : quad) {
-      const auto end = nodes.begin() + count;
-      const auto at = std::find(nodes.begin(), end, node);
-      if (at == end) {
-        nodes[count] = node;
-        delta[count++] = by;
-      } else {
-        delta[at - nodes.begin()] += by;
-      }
-    }
-  };
-  for (const int quad : change.old_span()) tally(topology_.quad(quad), -1);
-  for (const Quad& quad : change.new_span()) tally(quad, 1);
-  double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    if (delta[i] == 0) continue;
-    const int node = nodes[i];
-    int side = -1;
-    for (int k = 0; k < change.old_count && side < 0; ++k)
-      side = topology_.side_at(change.old_quads[k], node);
-    if (side < 0) {  // a new node, inside the patch
-      sum += node_cost(node, delta[i]);
-      continue;
-    }
-    const int valence = topology_.valence(side), quads = valence + delta[i];
-    sum -= node_cost(node, valence);
-    if (quads > 0 || !removable(node)) sum += node_cost(node, quads);
-  }
-  return sum;
-}
-
-/// Carries out a change unless its cost is too high or its worst element is no better than the worst one
-/// before and than `mendable_patch`.
-bool CleanUp::apply(Change& change, double allowed_cost) {
-  if (change.count == 0 || cost_change(change) > allowed_cost) return false;
-  std::array<Quad, max_patch> old;
-  for (int i = 0; i < change.old_count; ++i) old[i] = topology_.quad(change.old_quads[i]);
-  const std::span<const Quad> before(old.data(), change.old_count);
-  const double worst_before = worst(before);
-  const int node = change.moved;
-  SurfacePlace place;
-  if (node >= 0) {
-    place = mesh_.place_of(node);
-    Vector3 sum = Vector3::Zero();
-    int neighbors = 0;
-    for (const Quad& quad : change.new_span())
-      for (int k = 0; k < 4; ++k)
-        if (quad[k] == node) {
-          sum += point(quad[(k + 1) & 3]);
-          ++neighbors;
-        }
-    mesh_.put(node, mesh_.moved(surface_, node, sum / std::max(neighbors, 1)));
-  }
-  const bool done = worst(change.new_span()) > std::min(worst_before, mendable_patch) &&
-                    !too_long(before, change.new_span()) &&
-                    topology_.replace(change.old_span(), change.new_span());
-  if (!done && node >= 0) mesh_.put(node, place);
-  return done;
-}
 
 bool CleanUp::collapse_doublet(int node) {
   const int side = topology_.side_of(node);
@@ -198,43 +117,11 @@ bool CleanUp::collapse_doublet(int node) {
   change.add(side >> 2);
   change.add(other >> 2);
   change.quads[change.count++] = {one[(k + 1) & 3], one[(k + 2) & 3], one[(k + 3) & 3], two[(j + 2) & 3]};
-  if (!apply(change, 1e9)) return false;
+  const std::array<Quad, 2> before{one, two};
+  if (!(worst(change.new_span()) > std::min(worst(before), mendable_patch)) ||
+      !topology_.replace(change.old_span(), change.new_span()))
+    return false;
   for (const int corner : change.quads[0]) doubtful_[corner] = 1;
-  ++report_.doublet_collapses;
-  return true;
-}
-
-bool CleanUp::merge_slender(int quad) {
-  const Quad& q = topology_.quad(quad);
-  for (int k = 0; k < 2; ++k) {
-    const auto sharp = [&](int j) {
-      const Vector3 u = point(q[(j + 1) & 3]) - point(q[j & 3]), v = point(q[(j + 3) & 3]) - point(q[j & 3]);
-      return u.dot(v) > std::sqrt(0.5) * u.norm() * v.norm();
-    };
-    if (sharp(k) && sharp(k + 2)) return merge_corners(quad, k + 1) || merge_corners(quad, (k + 3) & 3);
-  }
-  return false;
-}
-
-/// Merges the node at a corner into the opposite one; the quad between them vanishes.
-bool CleanUp::merge_corners(int quad, int corner) {
-  const Quad q = topology_.quad(quad);
-  const int gone = q[corner], kept = q[(corner + 2) & 3];
-  if (!removable(gone)) return false;
-  Change change;
-  for (const int node : {gone, kept})
-    if (!topology_.add_fan(topology_.side_at(quad, node), change)) return false;
-  for (const int old : change.old_span()) {
-    if (old == quad) continue;
-    Quad changed = topology_.quad(old);
-    std::replace(changed.begin(), changed.end(), gone, kept);
-    change.quads[change.count++] = changed;
-  }
-  if (removable(kept)) change.moved = kept;
-  if (!apply(change, 2)) return false;
-  for (const Quad& changed : change.new_span())
-    for (const int node : changed) doubtful_[node] = 1;
-  ++report_.quad_vertex_merges;
   return true;
 }
 
@@ -254,7 +141,7 @@ void CleanUp::push(int node) {
 bool CleanUp::improve_valences() {
   queue_.clear();
   queued_.assign(mesh_.mesh.points.size(), 0);
-  const int moves = report_.valence_moves;
+  bool any = false;
   SparseCheck check(context_);
   for (int node = 0; node < node_count(); ++node) {
     check();
@@ -270,9 +157,12 @@ bool CleanUp::improve_valences() {
     queued_[node] = 0;
     if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
     blocked_ = false;
-    if (!improve_round(node) && blocked_) doubtful_[node] = 1;
+    if (improve_round(node))
+      any = true;
+    else if (blocked_)
+      doubtful_[node] = 1;
   }
-  return report_.valence_moves > moves;
+  return any;
 }
 
 /// Tries the patches around a node until one gains.
@@ -414,7 +304,6 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
   }
   if (filled.worst() > floor && !too_long(before, change.new_span()) &&
       topology_.replace(change.old_span(), change.new_span())) {
-    ++report_.valence_moves;
     drift_ += change.count - change.old_count;
     for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
     return true;
@@ -432,25 +321,22 @@ void CleanUp::write_back() {
 }  // namespace
 
 void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
-              ImproveReport& report, ExecutionContext& context) {
+              ExecutionContext& context) {
   if (!options.clean_up) return;
   ImproveOptions relaxing = options;
   relaxing.smoothing_sweeps = 2;
   std::vector<char> doubtful;
   for (int round = 0; round < 4; ++round) {
     context.check();
-    CleanUp work(surface_mesh, surface, report, doubtful, context);
+    CleanUp work(surface_mesh, surface, doubtful, context);
     bool any = work.collapse_doublets();
     any |= work.improve_valences();
-    if (round > 0) any |= work.merge_slender_quads();
     any |= work.collapse_doublets();
     work.write_back();
     if (!any) break;
-    smooth(surface_mesh, surface, relaxing, report, context);
+    smooth(surface_mesh, surface, relaxing, context);
   }
-  const int cavities = remesh_cavities(surface_mesh, surface, context);
-  report.cavities += cavities;
-  if (cavities > 0) smooth(surface_mesh, surface, relaxing, report, context);
+  if (remesh_cavities(surface_mesh, surface, context) > 0) smooth(surface_mesh, surface, relaxing, context);
 }
 
 }  // namespace quadrille

@@ -54,8 +54,7 @@ FaceQuads paired(FaceTriangulation& triangulation, const FaceQuadsOptions& optio
 void clean(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& options,
            ExecutionContext& context) {
   const StageTimer timer(context, Stage::improve);
-  ImproveReport report;
-  clean_up(quads.surface_mesh, surface, options, report, context);
+  clean_up(quads.surface_mesh, surface, options, context);
   keep_poles(quads);
 }
 
@@ -78,8 +77,7 @@ bool is_folded(const QuadMesh& mesh) {
 void smooth(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context) {
   const StageTimer timer(context, Stage::improve);
-  ImproveReport report;
-  smooth(quads.surface_mesh, surface, options, report, context);
+  smooth(quads.surface_mesh, surface, options, context);
 }
 
 FaceQuads make_quads(FaceTriangulation triangulation, const MeshSurface& surface,

@@ -52,26 +52,17 @@ struct SurfaceMesh {
   }
 };
 
-struct ImproveReport {
-  int quad_vertex_merges = 0;
-  int doublet_collapses = 0;
-  int valence_moves = 0;  ///< other topological moves that lowered the valence deviation
-  int cavities = 0;       ///< large patches refilled
-  int bad_elements = 0;   ///< elements that still have a scaled Jacobian <= 0
-};
-
-/// Topological clean-up: collapses doublets, closes quads with two sharp opposite corners (quad-vertex
-/// merge), and refills small patches, then large ones, where that lowers the valence deviation. Boundary
-/// nodes and sides stay. Unused points are removed and the arrays renumbered, with the fixed points first in
-/// their old order. The desired valence is 4 for an interior node, and one quad per 90 degrees of the
-/// boundary angle for a boundary node.
+/// Topological clean-up: collapses doublets and refills small patches, then large ones, where that lowers the
+/// valence deviation. Boundary nodes and sides stay. Unused points are removed and the arrays renumbered,
+/// with the fixed points first in their old order. The desired valence is 4 for an interior node, and one
+/// quad per 90 degrees of the boundary angle for a boundary node.
 void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
-              ImproveReport& report, ExecutionContext& context);
+              ExecutionContext& context);
 
 /// Moves the free nodes on the surface. First come elements with a non-positive Jacobian, which are
 /// untangled. Then Laplacian sweeps accept a move only if the worst element around the node does not get
 /// worse (or stays above a floor). Last come the worst elements, node by node.
 void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
-            ImproveReport& report, ExecutionContext& context);
+            ExecutionContext& context);
 
 }  // namespace quadrille

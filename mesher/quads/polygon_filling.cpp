@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "mesher/faces/spokes.hpp"
+#include "mesher/quads/spokes.hpp"
 
 namespace quadrille {
 namespace {

@@ -496,7 +496,7 @@ bool untangle(SmoothedMesh& m) {
 }  // namespace
 
 void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
-            ImproveReport& report, ExecutionContext& context) {
+            ExecutionContext& context) {
   SmoothedMesh mesh(surface_mesh, surface, context);
   Sweeps sweeps(mesh);
   const auto optimize = [&](int times, double floor) {
@@ -516,8 +516,6 @@ void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Improve
   if (loosen_below(mesh, std::sin(half_pi * q_floor), most_failures)) optimize(2, bad_jacobian);
   optimize(2, poor_jacobian);
   for (int i = 0; i < 10 && untangle(mesh); ++i) continue;
-  report.bad_elements = static_cast<int>(
-      std::count_if(mesh.quality.begin(), mesh.quality.end(), [](double s) { return !(s > 0); }));
 }
 
 }  // namespace quadrille

@@ -196,7 +196,7 @@ bool is_level(const TriangleMesh& patch) {
 /// \param shared points of the whole mesh that several tags use or that stay.
 /// \param fixed out: the patch's points that kept their place, in the order of the result.
 SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const ImproveOptions& options,
-                          ImproveReport& report, std::vector<int>& fixed, ExecutionContext& context) {
+                          std::vector<int>& fixed, ExecutionContext& context) {
   const TriangulatedSurface triangulated(patch.triangulation);
   std::unique_ptr<MeshSurface> level;
   if (is_level(patch.triangulation))
@@ -213,20 +213,20 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
     if (mesh.fixed.back()) fixed.push_back(v);
   }
   if (options.clean_up) {
-    clean_up(mesh, surface, options, report, context);
+    clean_up(mesh, surface, options, context);
   } else {
     // Without clean-up nothing is renumbered: all points are where they were.
     fixed.resize(mesh.mesh.points.size());
     for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = static_cast<int>(v);
   }
-  smooth(mesh, surface, options, report, context);
+  smooth(mesh, surface, options, context);
   return mesh;
 }
 
 }  // namespace
 
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
-                    std::vector<int>& renumbered, ImproveReport& report, ExecutionContext& context) {
+                    std::vector<int>& renumbered, ExecutionContext& context) {
   QuadMesh result;
   std::vector<int> local(triangulation.points.size(), -1);
   renumbered.assign(triangulation.points.size(), -1);
@@ -248,7 +248,7 @@ QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, co
       for (int t : found->second) patch.quads.triangles.push_back(localise(quads.triangles[t], patch));
     }
     std::vector<int> fixed;
-    const SurfaceMesh improved = improve_patch(patch, shared, options, report, fixed, context);
+    const SurfaceMesh improved = improve_patch(patch, shared, options, fixed, context);
     // The fixed points come first, and patches share them; the others are the patch's own.
     std::vector<int> number(improved.mesh.points.size(), -1);
     for (std::size_t v = 0; v < number.size(); ++v) {

@@ -48,6 +48,6 @@ class TriangulatedSurface : public MeshSurface {
 /// vanish or are added, so points are renumbered. \param renumbered out, by point of the triangulation: the
 /// point of the result if it stays, else -1. Throws Error (cancelled). Time: linear in practice.
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
-                    std::vector<int>& renumbered, ImproveReport& report, ExecutionContext& context);
+                    std::vector<int>& renumbered, ExecutionContext& context);
 
 }  // namespace quadrille

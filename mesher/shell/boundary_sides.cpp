@@ -1,10 +1,11 @@
-/// Counts the uses of each side, by sorted keys, in quads and in the boundary, and compares the two.
+/// Counts the uses of sides in quads and in the boundary, and compares the two.
 
 #include "mesher/shell/boundary_sides.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 
 #include "geometry/base/side_key.hpp"
 
@@ -81,6 +82,25 @@ std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& bound
     const bool ends_there = (met <= asked && met % 2 == asked % 2) || (spur && met == 0);
     if (!ends_there || forward > 1 || met - forward > 1) return std::pair(uses[i].low, uses[i].high);
   }
+  return std::nullopt;
+}
+
+std::optional<std::pair<int, int>> crowded_side(const std::vector<int>& nodes,
+                                                const std::vector<std::array<int, 4>>& quads) {
+  const int fixed = static_cast<int>(nodes.size());
+  // The first of the points at a node stands for all.
+  std::unordered_map<int, int> first;
+  std::vector<int> point(nodes.size());
+  for (int i = 0; i < fixed; ++i) point[i] = first.emplace(nodes[i], i).first->second;
+  if (first.size() == nodes.size()) return std::nullopt;  // there is no seam
+  std::unordered_map<std::uint64_t, int> uses;
+  for (const auto& quad : quads)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int a = quad[k], b = quad[(k + 1) % 4];
+      if (a >= fixed && b >= fixed) continue;
+      const int from = a < fixed ? point[a] : a, to = b < fixed ? point[b] : b;
+      if (++uses[side_key(from, to)] > 2) return std::pair(a, b);
+    }
   return std::nullopt;
 }
 

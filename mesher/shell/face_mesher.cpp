@@ -240,6 +240,13 @@ class FaceMesher {
                         fmt::format("the mesh of Face{} does not end on the face's boundary near {}",
                                     face_.number(), place_text(middle)));
     }
+    if (const auto side = crowded_side(result.nodes, result.quads)) {
+      const Vector3 middle = 0.5 * (result.points[side->first] + result.points[side->second]);
+      throw FaceProblem(
+          Cause::no_mesh, face_,
+          fmt::format("Face{} is so thin near {} that two sides of its quads join the same nodes",
+                      face_.number(), place_text(middle)));
+    }
     order(result);
     return result;
   }

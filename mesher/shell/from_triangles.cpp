@@ -192,8 +192,7 @@ ShellMesh quads_from_triangles(const ShellMesh& input, const FromTrianglesOption
   if (options.improve) {
     const StageTimer timer(context, Stage::improve);
     context.report(Stage::improve, 0);
-    ImproveReport improved;
-    quads = improve_on(surface.mesh, quads, {}, renumbered, improved, context);
+    quads = improve_on(surface.mesh, quads, {}, renumbered, context);
   }
   ShellMesh shell;
   shell.groups = input.groups;

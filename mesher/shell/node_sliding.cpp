@@ -17,6 +17,7 @@
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
+#include "mesher/shell/boundary_sides.hpp"
 #include "mesher/shell/crossed_edges.hpp"
 
 namespace quadrille {
@@ -497,6 +498,7 @@ void mend(FaceState& face, const ExecutionContext& context) {
   try {
     const double turn = mesh.normals.empty() ? -1 : least_turn_cosine;
     if (mend_quads(work, MovedOnFace(face), outside_objective, turn, changed, context) == 0) return;
+    if (crowded_side(mesh.nodes, work.mesh.quads)) return;
   } catch (const Standard_Failure&) {
     return;  // the surface cannot be evaluated somewhere: the face stays as it is
   }

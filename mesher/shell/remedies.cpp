@@ -34,9 +34,12 @@ bool finer_there(Case& job) {
 }
 
 /// Doubles the fineness of segments and points on the whole face, whose curvature is too much for its size.
+/// Where another chart was tried and is none, in the face's own one.
 bool twice_as_fine(Case& job) {
   SamplingPlan& plan = job.plan;
-  job.record.recipe = {.chart = job.record.recipe.chart,
+  const bool is_inverted = job.problem.cause() == Cause::inverted;
+  if (!is_inverted && job.record.recipe.chart == ChartKind::own) return false;
+  job.record.recipe = {.chart = is_inverted ? job.record.recipe.chart : ChartKind::own,
                        .fineness = 2 * job.record.recipe.fineness,
                        .leaves_surface = job.record.recipe.leaves_surface};
   for (const EdgeId edge : edges_of(job.shape.faces[job.face]))
@@ -118,7 +121,9 @@ constexpr std::array table{
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted}),
         "seen from above", 1, seen_from_above},
-    Row{any_of({Cause::inverted}), "the whole face twice as fine", 3, twice_as_fine},
+    Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh,
+                Cause::inverted}),
+        "the whole face twice as fine", 3, twice_as_fine},
 };
 
 }  // namespace

@@ -74,8 +74,11 @@ class ShellCheck {
 
   void find_open_sides() {
     std::unordered_map<std::uint64_t, int> edges;  // by side_key(), the numbers
-    for (const ShellMesh::Segment& segment : mesh_.segments)
+    std::vector<char> on_edges(mesh_.points.size(), 0);
+    for (const ShellMesh::Segment& segment : mesh_.segments) {
       edges.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
+      for (const int node : segment.nodes) on_edges[node] = 1;
+    }
     int count = 0;
     std::string first;
     for_each_shared_side(
@@ -84,7 +87,8 @@ class ShellCheck {
           if (sides.size() == 2 || is_inside_faces(sides)) return;
           const auto edge = edges.find(side_key(a, b));
           if (edge != edges.end() && faces_at(edge->second) == static_cast<int>(sides.size())) return;
-          if (is_explained(sides.size(), mesh_.points[a], mesh_.points[b])) return;
+          if (is_explained(sides.size(), mesh_.points[a], mesh_.points[b], on_edges[a] && on_edges[b]))
+            return;
           if (count++ > 0) return;
           const int face = mesh_.quad_faces[element_of(sides[0])];
           first =
@@ -118,12 +122,13 @@ class ShellCheck {
   }
 
   /// Whether the CAD edges along a side allow so many quads there: where narrow parts are left out, the nodes
-  /// of one edge stand for others, no farther away than the reach.
-  bool is_explained(std::size_t quads, const Vector3& a, const Vector3& b) {
+  /// of one edge stand for others, no farther away than the reach. Other nodes lie along crossed edges only.
+  bool is_explained(std::size_t quads, const Vector3& a, const Vector3& b, bool has_nodes_of_edges) {
     constexpr double sag = 0.25;  // of the side's length
     const double length = (b - a).norm();
     int along = 0;
-    for (const auto& [line, faces] : lines()) {
+    for (const auto& [line, faces, is_crossed] : lines()) {
+      if (!has_nodes_of_edges && !is_crossed) continue;
       if (quads == 1 ? faces != 1 : faces == 0) continue;
       const bool is_along = distance_to(line, a) <= reach_ && distance_to(line, b) <= reach_ &&
                             distance_to(line, 0.5 * (a + b)) <= reach_ + sag * length;
@@ -142,14 +147,19 @@ class ShellCheck {
   struct Line {
     std::vector<Vector3> points;
     int faces;  ///< that count, at the edge
+    bool is_crossed;
   };
 
   const std::vector<Line>& lines() {
     constexpr int pieces = 256;
-    if (lines_.empty())
-      for (const EdgeId id : shape_.edges.ids())
-        if (!shape_.edges[id].degenerate && shape_.edges[id].length > 0)
-          lines_.push_back({points_along(shape_.edges[id], pieces), faces_at_[id]});
+    if (!lines_.empty()) return lines_;
+    std::set<int> crossed;
+    for (const ShellMesh::CrossedEdge& edge : mesh_.crossed_edges) crossed.insert(edge.edge);
+    for (const EdgeId id : shape_.edges.ids()) {
+      const CadEdge& edge = shape_.edges[id];
+      if (edge.degenerate || !(edge.length > 0)) continue;
+      lines_.push_back({points_along(edge, pieces), faces_at_[id], crossed.contains(edge.number)});
+    }
     return lines_;
   }
 

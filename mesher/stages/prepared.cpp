@@ -146,7 +146,7 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
   rows = find_rows(*this, outlines, plan);
   gridded.resize(shape.faces.size());
   for (const FaceId face : gridded.ids())
-    gridded[face] = options.sizing.aspect > 1 && outlines[face].has_whole_rows();
+    gridded[face] = options.sizing.aspect > 1 && outlines[face].is_filled();
 }
 
 FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips,

@@ -23,5 +23,12 @@ TEST(WholeNumber, RefusesWhatDoesNotFit) {
   }
 }
 
+TEST(WholeNumber, CellsAreWithinTheirRange) {
+  EXPECT_EQ(cell_at(0.5, 4), 0);
+  EXPECT_EQ(cell_at(3.9, 4), 3);
+  for (const double value : {4.0, 5.7e9, HUGE_VAL}) EXPECT_EQ(cell_at(value, 4), 3) << value;
+  for (const double value : {-0.1, -5.7e9, -HUGE_VAL, std::nan("")}) EXPECT_EQ(cell_at(value, 4), 0) << value;
+}
+
 }  // namespace
 }  // namespace quadrille

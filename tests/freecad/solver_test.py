@@ -7,6 +7,8 @@ import shutil
 import sys
 import tempfile
 import unittest
+from types import SimpleNamespace
+from unittest import mock
 
 sys.path.insert(0, os.environ["QUADRILLE_PYTHON"])
 
@@ -16,6 +18,7 @@ import Part
 from FreeCAD import Vector
 
 import quadrille.freecad as core
+from quadrille.solvers import results
 
 LENGTH, WIDTH = 40.0, 10.0
 STEEL = 210000.0
@@ -148,6 +151,14 @@ class SolverTest(unittest.TestCase):
             self.force(analysis, 0.4, [(part, ("Face1", "Face2"))])
 
         self.check((STEEL, STEEL), (1.0, 1.0), load, "z", 0.4 / WIDTH / LENGTH * LENGTH**4 / (8 * STEEL / 12), 1e-3)
+
+    def test_only_shells_get_a_hint_at_their_surfaces(self):
+        solver = SimpleNamespace(Label="Solver", PropertiesList=[results.SURFACE_RESULTS], **{results.SURFACE_RESULTS: False})
+        for element, told in (("shell", 1), ("S8", 1), ("S4R", 1), ("CPS8", 0), ("CAX8R", 0), ("M3D4", 0)):
+            mesh = SimpleNamespace(Element=element, PropertiesList=["ReducedShells"])
+            with self.subTest(element), mock.patch.object(results, "FreeCAD") as window:
+                results.hint_at_surfaces(SimpleNamespace(Label="Result"), SimpleNamespace(Group=[mesh, solver]))
+                self.assertEqual(window.Console.PrintWarning.call_count, told)
 
 
 if __name__ == "__main__":

@@ -55,7 +55,6 @@ class OptionBytes {
     FromTrianglesOptions options;
     options.recombine.seed = bytes_[0];
     options.recombine.method = flag(0) ? Method::paper : Method::quality;
-    options.recombine.exchange = flag(1) ? Exchange::never : Exchange::where_it_gains;
     options.recombine.leftovers = flag(2) ? Leftovers::leave : Leftovers::pair;
     options.improve = !flag(3);
     options.merge = flag(4) ? 0.01 * bytes_[1] : -1;

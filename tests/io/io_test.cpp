@@ -129,6 +129,22 @@ TEST_P(RoundTrip, InpKeepsNodesAndQuadsWithFaces) {
     EXPECT_TRUE(contains(text, set)) << set;
 }
 
+/// Without them, FreeCAD searches the whole file for each; it multiplies coordinates by the first factor.
+TEST(Unv, BeginsWithUnitsAndCoordinateSystem) {
+  const TemporaryFolder folder;
+  write_mesh(ShellGrid(2, 1).mesh(), folder / "grid.unv");
+  const std::string text = test::file_text(folder / "grid.unv");
+  const std::size_t units = text.find("    -1\n   164\n"), system = text.find("    -1\n  2420\n"),
+                    nodes = text.find("    -1\n  2411\n");
+  EXPECT_EQ(units, 0U);
+  ASSERT_LT(system, nodes);
+  ASSERT_NE(nodes, std::string::npos);
+  const std::string one = "    1.0000000000000000E+0", zero = "    0.0000000000000000E+0";
+  EXPECT_TRUE(contains(text.substr(0, system), "\n" + one + one + one + "\n"));
+  EXPECT_TRUE(contains(text.substr(system, nodes - system),
+                       one + zero + zero + "\n" + zero + one + zero + "\n" + zero + zero + one + "\n"));
+}
+
 /// Large enough for several pieces of text to be made at once.
 TEST(Writers, GiveTheSameBytesOnAnyNumberOfThreads) {
   const TemporaryFolder folder;

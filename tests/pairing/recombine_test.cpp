@@ -152,21 +152,6 @@ TEST(Recombine, PaperModeFollowsItsSeed) {
   EXPECT_NE(recombined(mesh, Method::paper, 5).quads, recombined(mesh, Method::paper, 6).quads);
 }
 
-TEST(Recombine, ExchangeLowersTheNumberOfIrregularPoints) {
-  const TriangleMesh mesh = random_square(2000, 6);
-  RecombineOptions plain;
-  plain.exchange = Exchange::never;
-  ExecutionContext context;
-  const auto irregular = [](const QuadMesh& quads) {
-    std::vector<int> valence(quads.points.size(), 0);
-    for (const auto& quad : quads.quads) {
-      for (int v : quad) ++valence[v];
-    }
-    return std::count_if(valence.begin(), valence.end(), [](int n) { return n != 4; });
-  };
-  EXPECT_LT(irregular(recombine(mesh, {}, context)), irregular(recombine(mesh, plain, context)));
-}
-
 TEST(Recombine, CanBeCancelled) {
   ExecutionContext context;
   context.cancel();

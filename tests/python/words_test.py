@@ -47,6 +47,13 @@ class WordsTest(unittest.TestCase):
                 with self.subTest(place):
                     self.assertNotRegex(text, r"(?<![\w-])--[a-z]")
 
+    def test_notes_of_the_mesher_name_no_option_in_freecad(self):
+        notes = [text for _, text in literals("mesher/command") if text.startswith(("note: ", "--")) and " " in text]
+        self.assertGreater(sum("--report" in text for text in notes), 1)
+        for text in notes:
+            with self.subTest(text):
+                self.assertNotRegex(in_words_of_panel(text), r"(?<![\w-])--[a-z]")
+
     def test_every_setting_has_a_word(self):
         for setting in SETTINGS:
             sentence = in_words_of_panel(f"{setting['option']} must be positive: {setting['option']}, or {setting['option']}.")

@@ -40,11 +40,9 @@ int turned_over(const SurfaceMesh& mesh) {
   return count;
 }
 
-ImproveReport clean(SurfaceMesh& mesh, const MeshSurface& surface = PlanarSurface()) {
-  ImproveReport report;
+void clean(SurfaceMesh& mesh, const MeshSurface& surface = PlanarSurface()) {
   ExecutionContext context(1);
-  clean_up(mesh, surface, {}, report, context);
-  return report;
+  clean_up(mesh, surface, {}, context);
 }
 
 double least_scaled_jacobian(const SurfaceMesh& mesh) {
@@ -88,25 +86,19 @@ TEST_F(CleanUpSamples, StayValidWithTheirBoundary) {
 }
 
 TEST_F(CleanUpSamples, BecomeFarMoreRegularAndWellShaped) {
-  int merges = 0, doublets = 0;
   for (const auto& [name, before, surface] : all) {
     SCOPED_TRACE(name);
     SurfaceMesh after = before;
-    ImproveReport report = clean(after, *surface);
+    clean(after, *surface);
     ExecutionContext context(1);
-    smooth(after, *surface, {}, report, context);
+    smooth(after, *surface, {}, context);
     const QualitySummary was = quality(sample::shell(before)), is = quality(sample::shell(after));
     EXPECT_GT(was.irregular_percent, 15);
     EXPECT_LT(is.irregular_percent, 0.5 * was.irregular_percent);
     EXPECT_GT(is.q_mean, 0.8);
     EXPECT_GT(is.q_min, 0.35);
     EXPECT_NEAR(is.quads, was.quads, 0.1 * was.quads);
-    EXPECT_GT(report.valence_moves, 0);
-    merges += report.quad_vertex_merges;
-    doublets += report.doublet_collapses;
   }
-  EXPECT_GT(merges, 0);
-  EXPECT_GT(doublets, 0);
 }
 
 TEST_F(CleanUpSamples, KeepTheArea) {
@@ -145,9 +137,9 @@ TEST_F(CleanUpSamples, StayOnTheirSurface) {
 TEST(CleanUp, LeavesARegularGridAlone) {
   const SurfaceMesh before = grid(6, 5);
   SurfaceMesh after = before;
-  const ImproveReport report = clean(after);
-  EXPECT_EQ(report.valence_moves + report.doublet_collapses + report.quad_vertex_merges, 0);
+  clean(after);
   EXPECT_EQ(after.mesh.quads.size(), before.mesh.quads.size());
+  EXPECT_DOUBLE_EQ(quality(sample::shell(after)).irregular_percent, 0);
 }
 
 TEST(CleanUp, CollapsesADoublet) {
@@ -160,8 +152,7 @@ TEST(CleanUp, CollapsesADoublet) {
   mesh.fixed.push_back(0);
   mesh.mesh.quads[5] = {6, 7, 12, node};
   mesh.mesh.quads.push_back({6, node, 12, 11});
-  const ImproveReport report = clean(mesh);
-  EXPECT_EQ(report.doublet_collapses, 1);
+  clean(mesh);
   EXPECT_EQ(mesh.mesh.quads.size(), 16u);
   EXPECT_DOUBLE_EQ(quality(sample::shell(mesh)).irregular_percent, 0);
 }
@@ -265,23 +256,28 @@ TEST(CleanUp, KeepsTagsTrianglesAndOtherOptions) {
   const auto quads = untouched.mesh.quads;
   ImproveOptions options;
   options.clean_up = false;
-  ImproveReport report;
   ExecutionContext context(1);
-  clean_up(untouched, PlanarSurface(), options, report, context);
+  clean_up(untouched, PlanarSurface(), options, context);
   EXPECT_EQ(untouched.mesh.quads, quads);
+}
+
+TEST(CleanUp, LooksWhetherToGoOnAllTheWhile) {
+  EXPECT_EQ(sample::rare_looks([](SurfaceMesh& mesh, ExecutionContext& context) {
+              clean_up(mesh, PlanarSurface(), {}, context);
+            }),
+            "");
 }
 
 TEST(CleanUp, StopsWhenCancelled) {
   SurfaceMesh mesh = sample::rectangle(8, 1, 1);
-  ImproveReport report;
   ExecutionContext context(1);
   context.cancel();
-  EXPECT_THROW(clean_up(mesh, PlanarSurface(), {}, report, context), Error);
+  EXPECT_THROW(clean_up(mesh, PlanarSurface(), {}, context), Error);
 }
 
 TEST(CleanUp, AcceptsAnEmptyMesh) {
   SurfaceMesh mesh;
-  EXPECT_EQ(clean(mesh).bad_elements, 0);
+  clean(mesh);
   EXPECT_TRUE(mesh.mesh.quads.empty());
 }
 

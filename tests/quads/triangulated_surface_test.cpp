@@ -21,9 +21,8 @@ struct Improved {
 
 Improved improved(const TriangleMesh& mesh, const ImproveOptions& options = {}) {
   ExecutionContext context;
-  ImproveReport report;
   Improved result;
-  result.quads = improve_on(mesh, recombine(mesh, {}, context), options, result.renumbered, report, context);
+  result.quads = improve_on(mesh, recombine(mesh, {}, context), options, result.renumbered, context);
   return result;
 }
 

@@ -81,5 +81,17 @@ TEST(BoundarySides, MayLeaveASpurOutsideTheFace) {
   EXPECT_EQ(check(spur, two_quads), Side());
 }
 
+/// A tube with three segments around, cut at the seam 0 1: the points 0 and 2 are one node, and so are 1
+/// and 3.
+TEST(BoundarySides, AreNotTheSameTwiceRoundATube) {
+  const std::vector<int> nodes{7, 8, 7, 8};
+  // From both copies of the seam's first node, a side leads to point 4.
+  const Quads crowded{{0, 5, 6, 4}, {0, 4, 9, 1}, {2, 4, 6, 10}, {2, 3, 9, 4}};
+  ASSERT_TRUE(crowded_side(nodes, crowded));
+  EXPECT_EQ(std::max(crowded_side(nodes, crowded)->first, crowded_side(nodes, crowded)->second), 4);
+  EXPECT_FALSE(crowded_side({7, 8, 17, 18}, crowded));
+  EXPECT_FALSE(crowded_side({0, 1, 2, 3, 4, 5}, two_quads));
+}
+
 }  // namespace
 }  // namespace quadrille

@@ -82,8 +82,9 @@ TEST(PoorQuads, ASharpCornerIsNamed) {
   const ShellMesh mesh = quadrille::mesh(model, options, context);
   ASSERT_FALSE(mesh.poor_quads.empty());
   EXPECT_EQ(quads_of(mesh), failing(mesh));
-  const auto& why = mesh.poor_quads[0].why;
-  EXPECT_NE(why.find("its sides meet at 14 degrees at Vertex"), std::string::npos) << why;
+  EXPECT_TRUE(std::any_of(mesh.poor_quads.begin(), mesh.poor_quads.end(), [](const auto& poor) {
+    return poor.why.find("its sides meet at 14 degrees at Vertex") != std::string::npos;
+  }));
 }
 
 TEST(PoorQuads, NothingIsToldOfLargeFeaturesAndUnknownSizes) {

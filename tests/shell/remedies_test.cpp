@@ -83,9 +83,10 @@ TEST_F(Remedies, AreNoneWhereNothingHelps) {
 TEST_F(Remedies, ComeInTheOrderOfTheTable) {
   const std::string finer = "it failed: finer segments there";
   EXPECT_EQ(all(Cause::coarse_segments, true), (std::vector<std::string>{finer, finer, finer, finer}));
-  EXPECT_EQ(all(Cause::unusable_boundary, true),
-            (std::vector<std::string>{"it failed: parametric curves recreated by projection",
-                                      "it failed: seen from above"}));
+  EXPECT_EQ(
+      all(Cause::unusable_boundary, true),
+      (std::vector<std::string>{"it failed: parametric curves recreated by projection",
+                                "it failed: seen from above", "it failed: the whole face twice as fine"}));
 }
 
 TEST_F(Remedies, DoubleTheFinenessEachTime) {

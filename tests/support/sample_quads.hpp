@@ -142,6 +142,24 @@ inline SurfaceMesh rectangle(int columns, double height, std::uint32_t seed) {
   return surface_mesh(flat, place_in_plane);
 }
 
+/// Whether work on quads looks at least once in 30 of them whether to go on, at any size. Empty if so.
+inline std::string rare_looks(const std::function<void(SurfaceMesh&, ExecutionContext&)>& work) {
+  constexpr double most_quads = 30, least_growth = 2.2;
+  double before = 0;
+  for (const int columns : {30, 60}) {
+    SurfaceMesh mesh = rectangle(columns, 1, 1);
+    const auto quads = static_cast<double>(mesh.mesh.quads.size());
+    ExecutionContext context(1);
+    work(mesh, context);
+    const auto looks = static_cast<double>(context.work());
+    if (quads > most_quads * looks || looks < least_growth * before)
+      return std::to_string(looks) + " looks in " + std::to_string(quads) + " quads, " +
+             std::to_string(before) + " in a quarter of them";
+    before = looks;
+  }
+  return "";
+}
+
 /// A ring of inner radius 0.4 and outer radius 1: a domain with a hole, sizes growing outwards.
 inline SurfaceMesh ring(int columns, std::uint32_t seed) {
   const double growth = std::log(1 / 0.4);

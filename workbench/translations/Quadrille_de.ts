@@ -160,16 +160,12 @@
         <translation>Kriterium</translation>
     </message>
     <message>
-        <source>Limit</source>
-        <translation>Grenze</translation>
-    </message>
-    <message>
         <source>Fail</source>
         <translation>Außen</translation>
     </message>
     <message>
         <source>Worst</source>
-        <translation>Schlechteste</translation>
+        <translation>Ärgste</translation>
     </message>
     <message>
         <source>Color the mesh</source>
@@ -254,10 +250,6 @@
     <message>
         <source>The size that gives about {} elements</source>
         <translation>Die Größe, die etwa {} Elemente ergibt</translation>
-    </message>
-    <message>
-        <source>Take</source>
-        <translation>Übernehmen</translation>
     </message>
     <message>
         <source>Mesh only the faces that are selected in the 3-D view</source>
@@ -520,10 +512,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Hier verfeinern</translation>
     </message>
     <message>
-        <source>Half the size of the element, on its whole face</source>
-        <translation>Halbe Größe des Elements, auf seiner ganzen Fläche</translation>
-    </message>
-    <message>
         <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
         <translation>Element {} auf {}: q {}, Seitenverhältnis {}, Winkel {} bis {} Grad</translation>
     </message>
@@ -574,6 +562,138 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Nothing is missing before solving</source>
         <translation>Vor dem Lösen fehlt nichts</translation>
+    </message>
+    <message>
+        <source>waits until the open panel or command has ended</source>
+        <translation>wartet, bis das offene Aufgabenfenster oder der Befehl beendet ist</translation>
+    </message>
+    <message>
+        <source>{}: {} quads</source>
+        <translation>{}: {} Vierecke</translation>
+    </message>
+    <message>
+        <source>Finding a size</source>
+        <translation>Suche eine Größe</translation>
+    </message>
+    <message>
+        <source>{}: not meshed, since its panel was closed</source>
+        <translation>{}: nicht vernetzt, weil das Aufgabenfenster geschlossen wurde</translation>
+    </message>
+    <message>
+        <source>plane stress</source>
+        <translation>ebener Spannungszustand</translation>
+    </message>
+    <message>
+        <source>plane strain</source>
+        <translation>ebener Dehnungszustand</translation>
+    </message>
+    <message>
+        <source>rotational symmetry</source>
+        <translation>Rotationssymmetrie</translation>
+    </message>
+    <message>
+        <source>membrane</source>
+        <translation>Membran</translation>
+    </message>
+    <message>
+        <source>shell</source>
+        <translation>Schale</translation>
+    </message>
+    <message>
+        <source>four nodes</source>
+        <translation>vier Knoten</translation>
+    </message>
+    <message>
+        <source>eight nodes</source>
+        <translation>acht Knoten</translation>
+    </message>
+    <message>
+        <source>reduced integration</source>
+        <translation>reduzierte Integration</translation>
+    </message>
+    <message>
+        <source>full integration</source>
+        <translation>volle Integration</translation>
+    </message>
+    <message>
+        <source>S4 at first order; S8R, with reduced integration, at second</source>
+        <translation>S4 bei erster Ordnung; S8R, mit reduzierter Integration, bei zweiter</translation>
+    </message>
+    <message>
+        <source>Type of the elements for CalculiX; those for planes and rotational symmetry need a part in the plane z = 0</source>
+        <translation>Typ der Elemente für CalculiX; die für Ebenen und Rotationssymmetrie brauchen ein Teil in der Ebene z = 0</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>reading the part</source>
+        <translation>liest das Teil</translation>
+    </message>
+    <message>
+        <source>finding the middle surface</source>
+        <translation>sucht die Mittelfläche</translation>
+    </message>
+    <message>
+        <source>dividing edges</source>
+        <translation>teilt Kanten</translation>
+    </message>
+    <message>
+        <source>meshing faces</source>
+        <translation>vernetzt Flächen</translation>
+    </message>
+    <message>
+        <source>making triangles</source>
+        <translation>bildet Dreiecke</translation>
+    </message>
+    <message>
+        <source>pairing triangles</source>
+        <translation>paart Dreiecke</translation>
+    </message>
+    <message>
+        <source>making quads</source>
+        <translation>bildet Vierecke</translation>
+    </message>
+    <message>
+        <source>improving quads</source>
+        <translation>verbessert Vierecke</translation>
+    </message>
+    <message>
+        <source>moving nodes</source>
+        <translation>verschiebt Knoten</translation>
+    </message>
+    <message>
+        <source>joining faces</source>
+        <translation>verbindet Flächen</translation>
+    </message>
+    <message>
+        <source>writing the mesh</source>
+        <translation>schreibt das Netz</translation>
+    </message>
+    <message>
+        <source>From selection</source>
+        <translation>Aus Auswahl</translation>
+    </message>
+    <message>
+        <source>Elements</source>
+        <translation>Elemente</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, in a ball three elements wide around it</source>
+        <translation>Halbe Größe des Elements, in einer Kugel um es, die drei Elemente breit ist</translation>
+    </message>
+    <message>
+        <source>refined where asked: the smallest q fell from {} to {}</source>
+        <translation>wie verlangt verfeinert: das kleinste q fiel von {} auf {}</translation>
+    </message>
+    <message>
+        <source>Hidden in it, and not meshed: {}</source>
+        <translation>Darin ausgeblendet und nicht vernetzt: {}</translation>
+    </message>
+    <message>
+        <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
+        <translation>{} hat {} Körper, die sich berühren oder schneiden. Dort verbinden (Verschneiden), so dass sie Knoten teilen?</translation>
     </message>
 </context>
 <context>
@@ -861,6 +981,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
         <translation>Paare von Flächen oder Kanten, die die gleichen Knoten erhalten, verschoben oder gedreht, etwa Face3=Face7,Edge2=Edge9; leer = keine</translation>
+    </message>
+    <message>
+        <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>
+        <translation>Größtes Verhältnis von Länge zu Breite der Vierecke in Reihen über Biegungen, Ausrundungen und schmalen Flächen; 1 = Quadrate</translation>
     </message>
 </context>
 <context>

@@ -160,10 +160,6 @@
         <translation>Critère</translation>
     </message>
     <message>
-        <source>Limit</source>
-        <translation>Limite</translation>
-    </message>
-    <message>
         <source>Fail</source>
         <translation>Hors</translation>
     </message>
@@ -254,10 +250,6 @@
     <message>
         <source>The size that gives about {} elements</source>
         <translation>La taille qui donne environ {} éléments</translation>
-    </message>
-    <message>
-        <source>Take</source>
-        <translation>Prendre</translation>
     </message>
     <message>
         <source>Mesh only the faces that are selected in the 3-D view</source>
@@ -505,7 +497,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>Nodes at selected points</source>
-        <translation>Nœuds aux points sélectionnés</translation>
+        <translation>Nœuds aux points choisis</translation>
     </message>
     <message>
         <source>Put a node, with a group of its own, at each selected vertex or point object</source>
@@ -518,10 +510,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Refine here</source>
         <translation>Affiner ici</translation>
-    </message>
-    <message>
-        <source>Half the size of the element, on its whole face</source>
-        <translation>La moitié de la taille de l'élément, sur toute sa face</translation>
     </message>
     <message>
         <source>Element {} on {}: q {}, aspect {}, angles {} to {} degrees</source>
@@ -574,6 +562,138 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Nothing is missing before solving</source>
         <translation>Rien ne manque avant le calcul</translation>
+    </message>
+    <message>
+        <source>waits until the open panel or command has ended</source>
+        <translation>attend la fin du panneau ou de la commande en cours</translation>
+    </message>
+    <message>
+        <source>{}: {} quads</source>
+        <translation>{} : {} quadrangles</translation>
+    </message>
+    <message>
+        <source>Finding a size</source>
+        <translation>Recherche d’une taille</translation>
+    </message>
+    <message>
+        <source>{}: not meshed, since its panel was closed</source>
+        <translation>{} : non maillé, car son panneau a été fermé</translation>
+    </message>
+    <message>
+        <source>plane stress</source>
+        <translation>contraintes planes</translation>
+    </message>
+    <message>
+        <source>plane strain</source>
+        <translation>déformations planes</translation>
+    </message>
+    <message>
+        <source>rotational symmetry</source>
+        <translation>symétrie de révolution</translation>
+    </message>
+    <message>
+        <source>membrane</source>
+        <translation>membrane</translation>
+    </message>
+    <message>
+        <source>shell</source>
+        <translation>coque</translation>
+    </message>
+    <message>
+        <source>four nodes</source>
+        <translation>quatre nœuds</translation>
+    </message>
+    <message>
+        <source>eight nodes</source>
+        <translation>huit nœuds</translation>
+    </message>
+    <message>
+        <source>reduced integration</source>
+        <translation>intégration réduite</translation>
+    </message>
+    <message>
+        <source>full integration</source>
+        <translation>intégration complète</translation>
+    </message>
+    <message>
+        <source>S4 at first order; S8R, with reduced integration, at second</source>
+        <translation>S4 au premier ordre ; S8R, à intégration réduite, au second</translation>
+    </message>
+    <message>
+        <source>Type of the elements for CalculiX; those for planes and rotational symmetry need a part in the plane z = 0</source>
+        <translation>Type des éléments pour CalculiX ; ceux des plans et de la symétrie de révolution demandent une pièce dans le plan z = 0</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Moy.</translation>
+    </message>
+    <message>
+        <source>reading the part</source>
+        <translation>lecture de la pièce</translation>
+    </message>
+    <message>
+        <source>finding the middle surface</source>
+        <translation>recherche de la surface moyenne</translation>
+    </message>
+    <message>
+        <source>dividing edges</source>
+        <translation>division des arêtes</translation>
+    </message>
+    <message>
+        <source>meshing faces</source>
+        <translation>maillage des faces</translation>
+    </message>
+    <message>
+        <source>making triangles</source>
+        <translation>création des triangles</translation>
+    </message>
+    <message>
+        <source>pairing triangles</source>
+        <translation>appariement des triangles</translation>
+    </message>
+    <message>
+        <source>making quads</source>
+        <translation>création des quadrangles</translation>
+    </message>
+    <message>
+        <source>improving quads</source>
+        <translation>amélioration des quadrangles</translation>
+    </message>
+    <message>
+        <source>moving nodes</source>
+        <translation>déplacement des nœuds</translation>
+    </message>
+    <message>
+        <source>joining faces</source>
+        <translation>assemblage des faces</translation>
+    </message>
+    <message>
+        <source>writing the mesh</source>
+        <translation>écriture du maillage</translation>
+    </message>
+    <message>
+        <source>From selection</source>
+        <translation>Sélection</translation>
+    </message>
+    <message>
+        <source>Elements</source>
+        <translation>Éléments</translation>
+    </message>
+    <message>
+        <source>Half the size of the element, in a ball three elements wide around it</source>
+        <translation>La moitié de la taille de l'élément, dans une boule large de trois éléments autour de lui</translation>
+    </message>
+    <message>
+        <source>refined where asked: the smallest q fell from {} to {}</source>
+        <translation>affiné à l'endroit voulu : le q minimal est passé de {} à {}</translation>
+    </message>
+    <message>
+        <source>Hidden in it, and not meshed: {}</source>
+        <translation>Cachés dedans, et non maillés : {}</translation>
+    </message>
+    <message>
+        <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
+        <translation>{} a {} solides qui se touchent ou se coupent. Les relier là (Imprimer), pour qu'ils partagent des nœuds ?</translation>
     </message>
 </context>
 <context>
@@ -861,6 +981,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
         <translation>Paires de faces ou d’arêtes qui reçoivent les mêmes nœuds, par une translation ou une rotation, comme Face3=Face7,Edge2=Edge9 ; vide = aucune</translation>
+    </message>
+    <message>
+        <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>
+        <translation>Plus grand rapport longueur sur largeur des quadrangles en rangées sur les plis, les congés et les faces étroites ; 1 = carrés</translation>
     </message>
 </context>
 <context>

@@ -36,7 +36,7 @@ def type_into(name, text):
     line.selectAll()
     line.insert(text)
     process(0.1)
-    find("QuadrilleLog").setFocus()
+    find("QuadrilleScrolled").setFocus()
     process(0.1)
 
 
@@ -92,7 +92,7 @@ class GuiCase(unittest.TestCase):
         self.assertEqual(boxes.texts, [])
         self.assertTrue(FreeCADGui.Control.activeDialog())
         estimate = find("QuadrilleEstimate")
-        wait_for(lambda: estimate.text() != "...", what="the estimate")
+        wait_for(lambda: not estimate.text().endswith("..."), what="the estimate")
         return [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
 
     def press_mesh(self):

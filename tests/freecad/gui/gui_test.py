@@ -21,11 +21,13 @@ from PySide import QtCore, QtGui
 
 import quadrille.core.quality
 import quadrille.freecad
+from quadrille.gui import background
 from case import MODELS, GuiCase, picture, run, type_size
 from driver import Boxes, click_at, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
+from quadrille.solvers import checklist
 
 
 def fem_entries():
@@ -91,7 +93,7 @@ class GuiTest(GuiCase):
         self.assertEqual((mesh.Size.Value, mesh.ElementOrder), (2.0, "1st"))
         self.assertEqual(len(mesh.FemMesh.getElementNodes(mesh.FemMesh.Faces[0])), 4)
         find("QuadrilleSuggest").click()
-        wait_for(lambda: find("QuadrilleEstimate").text() != "...", what="the size")
+        wait_for(lambda: not find("QuadrilleEstimate").text().endswith("..."), what="the size")
         self.assertTrue(4000 < 600 / find("QuadrilleSize").property("rawValue") ** 2 < 6500)
         close_panel()
 
@@ -341,6 +343,70 @@ class GuiTest(GuiCase):
         self.assertEqual(mesh.Shape, body)
         close_panel()
 
+    def container(self):
+        """A container, moved, of two boxes that touch, and of a third one that is hidden."""
+        container = self.document.addObject("App::Part", "Container")
+        container.Placement.Base = FreeCAD.Vector(0, 0, 50)
+        for number in range(3):
+            box = self.document.addObject("Part::Box", f"Solid{number}")
+            box.Placement.Base.x = 10 * number
+            container.addObject(box)
+        box.ViewObject.hide()
+        self.document.recompute()
+        self.show()
+        return container
+
+    def mesh_of(self, answer=None):
+        """Triggers the command for the selection; the mesh object, and the questions that were asked."""
+        asked = []
+        with mock.patch.object(commands.MeshCommand, "ask", staticmethod(lambda text: asked.append(text) or answer)):
+            with Boxes() as boxes:
+                trigger("Quadrille_Mesh")
+        self.assertEqual(boxes.texts, [])
+        return [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1], asked
+
+    def test_touching_solids_of_a_container_are_joined(self):
+        container = self.container()
+        compound = self.document.addObject("Part::Compound", "Compound")
+        compound.Links = [self.document.addObject("Part::Box", f"Box{number}") for number in range(2)]
+        compound.Links[1].Placement.Base.x = 10
+        self.document.recompute()
+        for part, is_hidden in ((container, True), (compound, False)):
+            for answer, pieces in ((True, 1), (False, 2)):
+                with self.subTest(part=part.Name, answer=answer):
+                    FreeCADGui.Selection.clearSelection()
+                    FreeCADGui.Selection.addSelection(part)
+                    mesh, asked = self.mesh_of(answer)
+                    self.assertEqual(len(asked), 1)
+                    self.assertIn(f"{part.Label} has 2 solids that touch", asked[0])
+                    self.assertEqual("not meshed: Solid2" in asked[0], is_hidden)
+                    self.press_mesh()
+                    self.assertEqual(checklist.pieces(mesh.FemMesh), pieces)
+                    close_panel(QtGui.QDialogButtonBox.Cancel)
+        container.Group[-2].Placement.Base.x = 15
+        self.document.recompute()
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(container)
+        self.assertEqual(self.mesh_of()[1], [])
+        self.assertIn("not meshed: Solid2", window().statusBar().currentMessage())
+        close_panel(QtGui.QDialogButtonBox.Cancel)
+
+    def test_solids_of_a_container_stay_in_its_scope(self):
+        container = self.container()
+        report = next(view for view in window().findChildren(QtGui.QTextEdit) if "ReportOutput" in view.metaObject().className())
+        report.clear()
+        for name in ("Solid0.", "Solid1."):
+            FreeCADGui.Selection.addSelection(self.document.Name, "Container", name)
+        mesh, asked = self.mesh_of()
+        self.assertEqual(asked, [])
+        self.press_mesh()
+        close_panel()
+        self.document.recompute()
+        process(0.5)
+        self.assertNotIn("scope", report.toPlainText())
+        self.assertIn(mesh.Shape, container.Group)
+        self.assertEqual(checklist.pieces(mesh.FemMesh), 1)
+
     def test_a_click_on_the_mesh_means_the_part(self):
         box = self.box()
         mesh = self.open_panel(box)
@@ -525,9 +591,32 @@ class GuiTest(GuiCase):
     # Bad use: one clear message, the document unharmed
 
     def test_nothing_selected(self):
-        self.box()
+        box = self.box()
+        names = ("Quadrille_Mesh", "Quadrille_Middle", "Quadrille_Surface", "Quadrille_Refine")
+
+        def enabled(wanted):
+            process(0.5)  # FreeCAD updates what is enabled by a timer
+            return all(FreeCADGui.Command.get(name).getAction()[0].isEnabled() == wanted for name in names)
+
         FreeCADGui.Selection.clearSelection()
-        self.assertIn("select one part", self.message("Quadrille_Mesh"))
+        wait_for(lambda: enabled(False), 20, "gray buttons")
+        FreeCADGui.Selection.addSelection(box)
+        wait_for(lambda: enabled(True), 20, "buttons")
+
+    def test_the_toolbar_in_fem_is_the_last(self):
+        def bars():
+            process(0.5)
+            return [bar.objectName() for bar in sorted((bar for bar in window().findChildren(QtGui.QToolBar) if bar.isVisible()),
+                                                       key=lambda bar: (bar.y(), bar.x()))]
+
+        for workbench, ours in (("FemWorkbench", "QuadrilleInFem"), ("PartWorkbench", ""), ("QuadrilleWorkbench", "Quadrille"),
+                                ("FemWorkbench", "QuadrilleInFem")):
+            FreeCADGui.activateWorkbench(workbench)
+            found = bars()
+            self.assertEqual([name for name in found if "Quadrille" in name], [ours] if ours else [], workbench)
+            if ours:
+                self.assertEqual(found[-1], ours, workbench)
+        picture("toolbar_in_fem")
 
     def test_a_part_without_faces(self):
         line = self.document.addObject("Part::Feature", "Line")
@@ -607,10 +696,9 @@ class GuiTest(GuiCase):
         FreeCADGui.activeDocument().setEdit(mesh.Name)
         process(0.2)
         find("QuadrilleSize").setProperty("rawValue", 500.0)
-        with Boxes() as boxes:
-            find("QuadrilleMesh").click()
-            wait_for(lambda: boxes.texts, what="the message")
-        self.assertEqual((len(boxes.texts), mesh.FemMesh.FaceCount), (1, quads))
+        find("QuadrilleMesh").click()
+        wait_for(lambda: find("QuadrilleMesh").isEnabled() and find("QuadrilleSizeError").isVisible(), what="the message")
+        self.assertEqual(mesh.FemMesh.FaceCount, quads)
         close_panel()
         self.assertEqual(mesh.Status, "the settings have changed: mesh again")
         self.assertEqual(self.document.UndoCount, steps + 1)  # the size that was set; nothing of the failure
@@ -627,6 +715,8 @@ class GuiTest(GuiCase):
             quadrille.freecad.remesh(mesh)
         self.assertIn("already", str(caught.exception))
         close_panel()
+        find("QuadrilleBackgroundStop").click()
+        wait_for(lambda: not background._runs, what="stopping")
         self.assertEqual(quadrille.features.mesh_object._running, {})
 
     def test_the_document_is_closed_while_meshing(self):
@@ -655,11 +745,9 @@ class GuiTest(GuiCase):
     def test_the_mesher_refuses(self):
         mesh = self.open_panel(self.box())
         find("QuadrilleSize").setProperty("rawValue", 500.0)
-        with Boxes() as boxes:
-            find("QuadrilleMesh").click()
-            wait_for(lambda: boxes.texts, what="the message")
-        self.assertEqual(len(boxes.texts), 1)
-        self.assertIn("larger than the model", boxes.texts[0])
+        find("QuadrilleMesh").click()
+        wait_for(lambda: find("QuadrilleMesh").isEnabled() and find("QuadrilleSizeError").isVisible(), what="the message")
+        self.assertIn("larger than the model", find("QuadrilleSizeError").text())
         self.assertEqual(mesh.FemMesh.FaceCount, 0)
         close_panel()
 

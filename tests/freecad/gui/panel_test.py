@@ -5,6 +5,8 @@
 
 import os
 import sys
+import tempfile
+import time
 from pathlib import Path
 from unittest import mock
 from xml.etree import ElementTree
@@ -26,7 +28,7 @@ from quadrille.document import links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import commands, overlays, preferences
+from quadrille.gui import background, commands, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -78,14 +80,14 @@ class PanelTest(GuiCase):
     def test_every_size_takes_units(self):
         mesh = self.open_panel(self.box())
         type_into("QuadrilleSize", "1e400 mm")
-        self.assertIn("is not a length", find("QuadrilleEstimate").text())
+        self.assertIn("is not a length", self.error_of("Size"))
         for text in ("\u0662", "\u0662 mm", "2 mm^2"):  # a two in Arabic, of which FreeCAD makes 2e-308
             type_into("QuadrilleSize", text)
-            self.assertIn("is not a length", find("QuadrilleEstimate").text())
+            self.assertIn("is not a length", self.error_of("Size"))
         type_into("QuadrilleSize", "1e-300 mm")
-        self.assertIn("too small for a part of", find("QuadrilleEstimate").text())
+        self.assertIn("too small for a part of", self.error_of("Size"))
         type_into("QuadrilleSize", "1e300 mm")
-        self.assertIn("larger than the model", find("QuadrilleEstimate").text())
+        self.assertIn("larger than the model", self.error_of("Size"))
         self.select(self.document.Box, "Face1")
         find("QuadrilleRefinements").setChecked(True)
         find("QuadrilleMore").setChecked(True)
@@ -96,7 +98,7 @@ class PanelTest(GuiCase):
         type_into("QuadrilleSew", "1 um")
         type_into("QuadrilleMergeTiny", "0.0123456 mm")
         find("QuadrilleRefinedSize0").clear()  # as on the way to another size
-        self.assertIn("'' is not a length", find("QuadrilleEstimate").text())
+        self.assertIn("'' is not a length", self.error_of("Refinements"))
         type_into("QuadrilleRefinedSize0", "1/16 in")
         close_panel()
         self.assertAlmostEqual(mesh.Size.Value, 3.175, 9)
@@ -116,7 +118,7 @@ class PanelTest(GuiCase):
         for name in ("QuadrilleRefinements", "QuadrilleMore"):
             find(name).setChecked(True)
         process(0.3)
-        find("QuadrilleLog").setFocus()
+        find("QuadrilleScrolled").setFocus()
         fields = [field for kind in (QtGui.QAbstractSpinBox, QtGui.QComboBox) for name in core.defaults()
                   for field in window().findChildren(kind, f"Quadrille{name}")]
         self.assertGreater(len(fields), 5)
@@ -196,9 +198,13 @@ class PanelTest(GuiCase):
             faces.setText(text)
             self.assertEqual(self.error_of("Faces"), f"Box has no {unknown}" if unknown else "")
         type_into("QuadrilleSizeMin", "5 mm")
-        with Boxes() as boxes:
-            find("QuadrilleMesh").click()
-            wait_for(lambda: boxes.texts, what="the mesher's refusal")
+        find("QuadrilleMore").setChecked(False)
+        find("QuadrilleMesh").click()
+        wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="the mesher's refusal")
+        process(0.2)
+        line = find("QuadrilleSizeMinError")
+        self.assertEqual(line.visibleRegion().boundingRect(), line.rect())  # its section is open, and scrolled there
+        self.assertFalse(find("QuadrilleLog").isVisible())
         self.assertIn('"Minimum"', self.error_of("SizeMin"))
         self.assertEqual(self.error_of("Size"), "")
         type_into("QuadrilleSizeMin", "0.5 mm")
@@ -288,13 +294,14 @@ class PanelTest(GuiCase):
     def test_nonsense_for_a_size(self):
         self.open_panel(self.box())
         type_into("QuadrilleSize", "5 kg")
-        self.assertIn("5 kg", find("QuadrilleEstimate").text())
+        self.assertIn("5 kg", self.error_of("Size"))
         with Boxes() as boxes:
             find("QuadrilleMesh").click()
             process(0.3)
             close_panel()
-        self.assertEqual(len(boxes.texts), 2, boxes.texts)
-        self.assertIn("not a length", boxes.texts[0])
+        self.assertEqual(boxes.texts, [])  # the error stands at its field, and there only
+        self.assertFalse(find("QuadrilleLog").isVisible())
+        self.assertIn("5 kg", self.error_of("Size"))
         self.assertTrue(FreeCADGui.Control.activeDialog())
         close_panel(CANCEL)
 
@@ -422,6 +429,72 @@ class PanelTest(GuiCase):
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
         self.assertEqual(quadrille.features.mesh_object._running, {})
 
+    def test_ok_while_meshing_goes_on(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.03 mm")
+        find("QuadrilleMesh").click()
+        process(0.1)
+        close_panel()
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        bar = find("QuadrilleBackground")
+        self.assertTrue(bar.isVisible())
+        wait_for(lambda: bar.value() > 0, what="the bar")
+        picture("background")
+        wait_for(lambda: not background._runs, what="the mesh")
+        self.assertEqual((mesh.Status, mesh.Size.Value), ("up to date", 0.03))
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+        self.assertTrue(mesh.ViewObject.Visibility)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleBackground"), [])
+        self.document.undo()
+        self.assertEqual((mesh.FemMesh.FaceCount, mesh.Size.Value), (0, 0.03))
+
+    def test_ok_while_the_size_is_sought_meshes(self):
+        FreeCADGui.Selection.addSelection(self.box())
+        trigger("Quadrille_Mesh")
+        find("QuadrilleMesh").click()
+        self.assertFalse(find("QuadrilleMesh").isEnabled(), "it waits for the size")
+        close_panel()
+        wait_for(lambda: not background._runs, what="the mesh")
+        mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertEqual(mesh.Status, "up to date")
+        self.assertGreater(mesh.Size.Value, 0)
+
+    def test_a_run_in_the_background_stops(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        for seconds in (0.1, 0.5):
+            process(seconds)
+            self.edit(mesh)  # takes the run back
+            self.assertEqual(background._runs, {})
+            self.assertTrue(find("QuadrilleStop").isEnabled())
+            close_panel()
+        began = time.monotonic()
+        find("QuadrilleBackgroundStop").click()
+        wait_for(lambda: not background._runs, what="stopping")
+        self.assertLess(time.monotonic() - began, 0.5)
+        self.assertEqual((mesh.FemMesh.FaceCount, core._running), (0, {}))
+
+    def test_a_run_in_the_background_ends_with_its_mesh(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.008 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        self.document.removeObject(mesh.Name)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
+    def test_a_failure_in_the_background_is_told(self):
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "0.05 mm")
+        find("QuadrilleMesh").click()
+        close_panel()
+        with Boxes() as boxes:
+            core._running[self.document.Name, mesh.Name]._job._process.kill()
+            wait_for(lambda: boxes.texts, what="the message")
+        self.assertEqual(len(boxes.texts), 1)
+        self.assertEqual((background._runs, core._running), ({}, {}))
+
     def test_a_mesher_stands_by(self):
         self.open_panel(self.box())
         wait_for(lambda: command._standby, what="a mesher that stands by")
@@ -477,14 +550,13 @@ class PanelTest(GuiCase):
         before = find("QuadrilleSize").text()
         type_into("QuadrilleSize", "1.5 mm")
         self.press_mesh()
-        self.assertTrue(find("QuadrilleWorst").isVisible())
+        wait_for(lambda: find("QuadrilleWorst").isVisible(), what="the worst elements")
         self.document.undo()
         process(2)  # longer than the histogram takes to come
         self.assertFalse(find("QuadrilleWorst").isVisible())
         self.assertEqual(find("QuadrilleSize").text(), before)
         self.document.redo()
-        process(0.5)
-        self.assertTrue(find("QuadrilleWorst").isVisible())
+        wait_for(lambda: find("QuadrilleWorst").isVisible(), what="the worst elements")
         self.assertEqual(find("QuadrilleQualityTable").item(0, 1).text(), str(mesh.QuadCount))
         self.document.undo()
         process(0.5)
@@ -594,7 +666,7 @@ class PanelTest(GuiCase):
     def expected_rows(self):
         """The quads to expect that the panel lists, by face."""
         estimate = find("QuadrilleEstimate")
-        wait_for(lambda: estimate.text() != "...", what="the estimate")
+        wait_for(lambda: not estimate.text().endswith("..."), what="the estimate")
         counts = find("QuadrilleFaceCounts")
         rows = (counts.item(row).text().split(": ") for row in range(counts.count()))
         return {name: int(quads) for name, quads in rows}
@@ -606,7 +678,7 @@ class PanelTest(GuiCase):
         part.Shape = Part.makeBox(20, 20, 20).cut(Part.makeCylinder(3, 30, FreeCAD.Vector(10, 10, 0)))
         self.document.recompute()
         self.edit(mesh)
-        wait_for(lambda: "Face6" in find("QuadrilleEstimate").text(), what="the name of the face")
+        wait_for(lambda: "Face6" in find("QuadrilleEstimateError").text(), what="the name of the face")
         self.select(part, "Face6")  # the same name, of another face: that is for the user to say
         find("QuadrilleTakeSelection").click()
         self.press_mesh()
@@ -639,7 +711,7 @@ class PanelTest(GuiCase):
         self.edit(mesh)
         wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
         table, measured = find("QuadrilleCriteria"), quality.measure(mesh.FemMesh, mesh.LeastSize)
-        counts = [int(table.item(row, 2).text()) for row in range(table.rowCount())]
+        counts = [int(table.item(row, 1).text()) for row in range(table.rowCount())]
         self.assertEqual(counts, [int(measured.fails(name).sum()) for name in quality.CRITERIA])
         self.assertGreater(sum(counts), 0)
         find("QuadrilleColor").setChecked(True)
@@ -680,18 +752,44 @@ class PanelTest(GuiCase):
         self.assertTrue(told.text().startswith(f"Element {measured.ids[index]} on Face"), told.text())
         self.assertNotIn("forced", told.text())
         picture("element")
-        face = told.text().split()[3].rstrip(":")
+        find("QuadrilleRefinements").setChecked(False)
         find("QuadrilleRefineHere").click()
-        self.assertEqual(find("QuadrilleRefinedName0").text(), face)
+        process(0.3)
+        name, box = find("QuadrilleEntryName0"), find("QuadrilleEntry0")
+        self.assertTrue(name.text().startswith("SizeIn sphere:"))
+        x, y, z, radius = map(float, name.text().split(":")[1].split(","))
+        np.testing.assert_allclose((x, y, z), measured.centers[index], atol=1e-4)
+        self.assertAlmostEqual(radius, 1.5 * measured.lengths[index], 4)
+        self.assertAlmostEqual(float(box.text()), measured.lengths[index] / 2, 2)
+        self.assertEqual((box.hasFocus(), box.selectedText()), (True, box.text()))
+        self.assertEqual(box.visibleRegion().boundingRect(), box.rect())
+        picture("refined_here")
         row = list(quality.CRITERIA).index("angle_min")
         table = find("QuadrilleCriteria")
         click(table.viewport(), QtCore.QPointF(table.visualItemRect(table.item(row, 0)).center()))
         self.assertEqual(find("QuadrilleMeasure").currentData(), "angle_min")
         self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
         close_panel()
-        self.assertEqual(len(mesh.MeshRegionList), 1)
+        self.assertEqual((len(mesh.SizeIn), mesh.MeshRegionList), (1, []))
         view.viewFront()
         click_at(FreeCAD.Vector(*measured.centers[index]))  # nobody listens any more
+
+    def test_a_refinement_that_lowers_the_worst_q_says_so(self):
+        part = self.document.addObject("Part::Feature", "Cube")
+        part.Shape = Part.makeBox(40, 40, 40)
+        mesh = quadrille.freecad.mesh_object(part, size=5, order=1)
+        self.assertGreater(mesh.WorstQuality, 0.99)  # squares
+        self.edit(mesh)
+        wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
+        find("QuadrilleWorst").setCurrentRow(0)
+        find("QuadrilleRefineHere").click()
+        self.press_mesh()
+        text = f"the smallest q fell from 1.000 to {mesh.WorstQuality:.3f}"
+        self.assertIn(text, window().statusBar().currentMessage())
+        self.assertIn(text, find("QuadrilleLog").toPlainText())
+        self.press_mesh()
+        self.assertNotIn("fell", find("QuadrilleLog").toPlainText())
+        close_panel()
 
     def test_what_is_missing_before_solving(self):
         import FemGui
@@ -719,6 +817,12 @@ class PanelTest(GuiCase):
             analysis.addObject(obj)
         solver.BeamShellResultOutput3D = False
         self.assertRegex(told(), "^Missing before solving: stresses come from the middle")
+        mesh.Element = "CPS8"  # has one stress through the thickness
+        self.assertEqual(told(), "Nothing is missing before solving")
+        self.edit(mesh)
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleSurfaces"), [])
+        close_panel()
+        mesh.Element = "S8R"
         solver.BeamShellResultOutput3D = True
         self.assertEqual(told(), "Nothing is missing before solving")
 
@@ -729,14 +833,42 @@ class PanelTest(GuiCase):
         wait_for(lambda: find("QuadrilleWorst").count(), what="the worst elements")
         self.assertNotIn("matplotlib", sys.modules)
         histogram = find("QuadrilleHistogram")
-        for background in (QtCore.Qt.white, QtCore.Qt.black):
-            palette = histogram.palette()
-            palette.setColor(QtGui.QPalette.Base, background)
-            histogram.setPalette(palette)
+        for base in (QtCore.Qt.white, QtCore.Qt.black):
+            table = find("QuadrilleCriteria")  # whose ground it has
+            palette = table.palette()
+            palette.setColor(QtGui.QPalette.Base, base)
+            table.setPalette(palette)
             image = histogram.grab().toImage()
             colors = [image.pixelColor(x, y).name() for x in range(image.width()) for y in range(0, image.height(), 3)]
-            self.assertEqual(max(set(colors), key=colors.count) if background == QtCore.Qt.black else "#000000", "#000000")
+            self.assertEqual(max(set(colors), key=colors.count) if base == QtCore.Qt.black else "#000000", "#000000")
             self.assertGreater(len(set(colors)), 4)
+
+    def test_colors_are_true_while_the_mesh_is_selected(self):
+        mesh = quadrille.freecad.mesh_object(self.box(), size=2)
+        self.document.Box.ViewObject.hide()
+        view = FreeCADGui.activeDocument().activeView()
+
+        def frequent_color():
+            """The one that the quads of the cube, all alike, have."""
+            process(0.2)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "view.png")
+                view.saveImage(path, 200, 200, "White")
+                image = QtGui.QImage(path)
+            colors = [image.pixelColor(x, y).name() for x in range(0, 200, 3) for y in range(0, 200, 3)]
+            return max(set(colors) - {"#ffffff", "#000000"}, key=colors.count)
+
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh))
+        self.show()
+        plain = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertEqual(frequent_color(), plain)
+        overlays.show_quality(mesh, quality.measure(mesh.FemMesh), "aspect")
+        overlays.hide(mesh, overlays.QUALITY)
+        FreeCADGui.Selection.clearSelection()
+        grey = frequent_color()
+        FreeCADGui.Selection.addSelection(mesh)
+        self.assertNotEqual(frequent_color(), grey)
 
     # Preferences, languages, commands
 
@@ -784,8 +916,8 @@ class PanelTest(GuiCase):
 
     def test_languages(self):
         for language, mesh_word, command_word, status, words in (
-                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Übernehmen", "Größenvorschau", "Schlechteste")),
-                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Prendre", "Aperçu des tailles", "Pire"))):
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Aus Auswahl", "Größenvorschau", "Ärgste")),
+                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Sélection", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
                 try:
@@ -795,7 +927,7 @@ class PanelTest(GuiCase):
                     self.assertEqual(find("QuadrilleMesh").text(), mesh_word)
                     self.assertEqual(find("QuadrilleStatus").text(), status)
                     self.assertEqual((find("QuadrilleTakeSelection").text(), find("QuadrillePreview").text(),
-                                      find("QuadrilleCriteria").horizontalHeaderItem(3).text()), words)
+                                      find("QuadrilleCriteria").horizontalHeaderItem(2).text()), words)
                     self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
                     picture(f"panel_{language}")
                     type_into("QuadrilleSize", "2,5 mm")

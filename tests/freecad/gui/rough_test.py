@@ -21,7 +21,8 @@ from case import GuiCase, run, type_into
 from driver import Boxes, close_panel, find, process, wait_for, window
 from quadrille.core.jobs import find_mesher
 from quadrille.document import undo
-from quadrille.document.state import PART_CHANGED, PART_GONE, SETTINGS_CHANGED, UP_TO_DATE
+from quadrille.document.state import NOT_MESHED, PART_CHANGED, PART_GONE, SETTINGS_CHANGED, UP_TO_DATE
+from quadrille.gui import background
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
 _MESHER_AT_A_GATE = """#!/usr/bin/env python3
@@ -163,7 +164,7 @@ class RoughTest(GuiCase):
         self.delete("Box")
         self.let_go()
         self.assert_sound(mesh, PART_GONE)
-        self.assertIn("is gone", find("QuadrilleEstimate").text())
+        self.assertIn("is gone", find("QuadrilleEstimateError").text())
         find("QuadrilleRefinements").setChecked(True)
         for name in ("QuadrilleMesh", "QuadrilleSuggest", "QuadrilleTakeSelection", "QuadrilleAddRefinement", "QuadrilleDivide"):
             self.assertIn("the part that it meshes is gone", self.told(name))
@@ -326,6 +327,158 @@ class RoughTest(GuiCase):
         self.assert_sound(mesh, UP_TO_DATE)
         self.assert_sound(there, UP_TO_DATE)
 
+    # Runs that go on after OK
+
+    def go_on(self):
+        """A mesh object whose mesher waits, without its panel."""
+        mesh = self.open_panel(self.box())
+        type_into("QuadrilleSize", "2 mm")
+        self.begin()
+        close_panel()
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertTrue(find("QuadrilleBackground").isVisible())
+        return mesh
+
+    def let_it_wait(self):
+        """The mesher of go_on() ends, and its mesh waits until it can be stored."""
+        self.gate.unlink()
+        bar = find("QuadrilleBackground")
+        wait_for(lambda: "waits" in bar.format(), what="the end")
+
+    def come_to_its_end(self):
+        """The mesher of go_on() goes on, and its mesh is stored."""
+        self.gate.unlink()
+        wait_for(lambda: not background._runs, what="meshing")
+        process(0.2)
+        self.assert_no_bar()
+
+    def assert_no_bar(self):
+        """Nothing is left of a run."""
+        process(0.2)
+        self.assertEqual((background._runs, quadrille.features.mesh_object._running), ({}, {}))
+        self.assertEqual(window().findChildren(QtGui.QWidget, "QuadrilleBackground"), [])
+        self.assertEqual(self.boxes.texts, [])
+
+    def test_the_document_of_a_run_is_closed(self):
+        self.go_on()
+        FreeCAD.closeDocument(self.document.Name)
+        self.assert_no_bar()
+
+    def test_the_document_of_a_run_is_reverted(self):
+        mesh = self.go_on()
+        self.document.saveAs(str(self.folder / "part.FCStd"))
+        self.document.restore()
+        self.gate.unlink()
+        process(1)
+        wait_for(lambda: not background._runs, what="the end")
+        self.assert_no_bar()
+        mesh = self.document.QuadMesh
+        self.assertEqual(mesh.QuadCount, mesh.FemMesh.FaceCount)
+
+    def test_the_part_of_a_run_is_deleted(self):
+        mesh = self.go_on()
+        self.delete("Box")
+        self.come_to_its_end()
+        self.assert_sound(mesh, PART_GONE)
+        self.assertGreater(mesh.QuadCount, 0)
+
+    def test_the_settings_of_a_run_are_undone(self):
+        mesh = self.go_on()
+        self.document.undo()
+        self.assertNotEqual(mesh.Size.Value, 2)
+        self.come_to_its_end()
+        self.assert_sound(mesh, SETTINGS_CHANGED)
+        self.document.undo()
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        self.document.redo()
+        self.assert_sound(mesh, SETTINGS_CHANGED)
+
+    def test_all_of_a_run_is_undone(self):
+        self.go_on()
+        self.document.undo()
+        self.document.undo()
+        self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
+        self.assert_no_bar()
+        self.document.redo()
+        self.document.redo()
+        self.assert_sound(self.document.QuadMesh, NOT_MESHED)
+
+    def test_the_part_of_a_run_changes(self):
+        mesh = self.go_on()
+        self.document.Box.Length = 20
+        self.document.recompute()
+        self.come_to_its_end()
+        self.assert_sound(mesh, PART_CHANGED)
+
+    def test_a_run_that_was_taken_back_is_cancelled(self):
+        mesh = self.go_on()
+        self.edit(mesh)
+        self.assertEqual(background._runs, {})
+        type_into("QuadrilleSize", "3 mm")
+        close_panel(CANCEL)
+        self.assertEqual((mesh.Size.Value, mesh.FemMesh.FaceCount), (2, 0))
+        self.assert_no_bar()
+
+    def test_a_run_that_was_taken_back_ends_in_the_panel(self):
+        mesh = self.go_on()
+        self.edit(mesh)
+        self.assertFalse(find("QuadrilleMesh").isEnabled())
+        self.let_go()
+        self.assert_sound(mesh, UP_TO_DATE)
+        self.assertIn(f"{mesh.QuadCount} quads: mesher", find("QuadrilleLog").toPlainText())
+        close_panel(CANCEL)  # undoes what was done since the panel was opened again
+        self.assertEqual((mesh.Size.Value, mesh.FemMesh.FaceCount), (2, 0))
+
+    def test_a_run_ends_while_another_panel_is_open(self):
+        mesh = self.go_on()
+        cylinder = self.document.addObject("Part::Cylinder", "Cylinder")
+        self.document.recompute()
+        self.open_panel(cylinder)
+        self.let_it_wait()
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        close_panel(CANCEL)
+        wait_for(lambda: not background._runs, what="the mesh")
+        self.assert_sound(mesh, UP_TO_DATE)
+        self.assertIsNotNone(self.document.getObject("Cylinder"))
+
+    def test_a_run_ends_while_an_undo_step_is_made(self):
+        mesh = self.go_on()
+        self.document.openTransaction("Another")
+        self.document.Box.Label = "Renamed"
+        self.let_it_wait()
+        self.assertEqual(mesh.FemMesh.FaceCount, 0)
+        self.document.abortTransaction()
+        wait_for(lambda: not background._runs, what="the mesh")
+        self.assert_sound(mesh, UP_TO_DATE)
+        self.assertEqual(self.document.Box.Label, "Box")
+        self.assert_no_bar()
+
+    def test_a_mesh_that_waits_is_stopped(self):
+        mesh = self.go_on()
+        self.document.openTransaction("Another")
+        self.document.Box.Label = "Renamed"
+        self.let_it_wait()
+        find("QuadrilleBackgroundStop").click()
+        self.assert_no_bar()
+        self.document.commitTransaction()
+        self.assert_sound(mesh, NOT_MESHED)
+
+    def test_two_runs(self):
+        first = self.go_on()
+        cylinder = self.document.addObject("Part::Cylinder", "Cylinder")
+        self.document.recompute()
+        second = self.open_panel(cylinder)
+        type_into("QuadrilleSize", "2 mm")
+        self.begin()
+        close_panel()
+        self.assertEqual(len(background._runs), 2)
+        self.come_to_its_end()
+        self.assert_sound(first, UP_TO_DATE)
+        self.assert_sound(second, UP_TO_DATE)
+        self.document.undo()
+        self.document.undo()
+        self.assertEqual((first.FemMesh.FaceCount, second.FemMesh.FaceCount), (0, 0))
+
     # Buttons and keys
 
     def test_impatience(self):
@@ -347,7 +500,7 @@ class RoughTest(GuiCase):
         self.open_panel(self.box())
         self.begin()
         escape = QtGui.QKeyEvent(QtCore.QEvent.KeyPress, QtCore.Qt.Key_Escape, QtCore.Qt.NoModifier)
-        QtGui.QApplication.sendEvent(find("QuadrilleLog"), escape)
+        QtGui.QApplication.sendEvent(find("QuadrilleScrolled"), escape)
         process(0.2)
         self.assertEqual([obj.Name for obj in self.document.Objects], ["Box"])
 

@@ -130,7 +130,6 @@ class SurfaceTest(GuiCase):
             self.assertTrue(os.path.getsize(path))
 
     def test_what_is_wrong_is_told_and_nothing_is_left(self):
-        self.assertIn("select one mesh object", self.message("Quadrille_Surface"))
         FreeCADGui.Selection.addSelection(self.box())
         self.assertIn("select one mesh object", self.message("Quadrille_Surface"))
         surface = self.surface()

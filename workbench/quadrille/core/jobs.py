@@ -3,6 +3,7 @@
 as a UNV file with its groups. Runs inside FreeCAD."""
 
 import os
+import time
 from pathlib import Path
 from typing import Dict, List, Optional, Sequence, Tuple, Union
 
@@ -40,11 +41,13 @@ class FemJob:
     def __init__(self, command: str, folder, output: str, job: MeshJob) -> None:
         """folder: the job's scratch folder, removed when the job has ended; output: the .unv file in it."""
         self._command, self._folder, self._output, self._job = command, folder, output, job
+        self.started = 0.0  #: when start() was called, by time.monotonic()
         self._report: Optional[Dict] = None
         self._result: Optional[Tuple["Fem.FemMesh", Dict]] = None
 
     def start(self):
         """Starts the child process."""
+        self.started = time.monotonic()
         try:
             self._job.start()
         except Error:

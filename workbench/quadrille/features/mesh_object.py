@@ -17,7 +17,7 @@ from ..core.jobs import ShapeJob
 from ..core.prepared import Prepared
 from ..core.setting_table import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
 from ..core.units import millimeters
-from ..document import groups, links, old_documents, shapes, state, undo
+from ..document import containers, groups, links, old_documents, shapes, state, undo
 from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
 from ..solvers import element_types, results, wrappers
@@ -109,7 +109,10 @@ def fragments(parts: Sequence):
 
     for part in parts:
         shape_of(part)
+    container = containers.common_container(parts)
     joined = SplitFeatures.makeBooleanFragments(name="Parts")
+    if container is not None:  # else its links would go out of their scope, and its place would be another
+        container.addObject(joined)
     joined.Objects = list(parts)
     joined.Document.recompute([joined])
     shape_of(joined)
@@ -319,7 +322,7 @@ class MeshFeature:
                 setattr(obj, name, words(setting))
             setattr(obj, name, to_property(setting, None))
         for kind, name, group, text in (
-            ("App::PropertyLink", "Shape", "Mesh", "The part that is meshed"),
+            ("App::PropertyLinkGlobal", "Shape", "Mesh", "The part that is meshed"),  # which may be in a container
             (links.PROPERTY, "FlippedFaces", "Mesh", "Faces whose shell normals are flipped"),
             ("App::PropertyBool", state.FOLLOWS, "Mesh", "Use the sizes of the last round of adaptation"),
             ("App::PropertyFileIncluded", state.ADAPTED, "Hidden", "Sizes of the last round of adaptation"),

@@ -333,7 +333,7 @@ class MiddleSurface:
     def add_properties(obj) -> None:
         """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
-            ("App::PropertyLink", "Source", "Middle surface", "The thin part"),
+            ("App::PropertyLinkGlobal", "Source", "Middle surface", "The thin part"),
             ("App::PropertyBool", "Partial", "Middle surface", "Use the walls that could be paired if the part is thin in places only"),
             ("App::PropertyBool", "Join", "Middle surface", "Treat solids that touch as one part, as if welded"),
             ("App::PropertyFloatList", "Thicknesses", "Result", "Mean thickness of each face, mm"),

@@ -221,7 +221,7 @@ class SurfaceMesh:
     def add_properties(obj) -> None:
         """Adds missing properties, so that documents of older versions gain new ones."""
         for kind, name, group, text in (
-            ("App::PropertyLink", "Surface", "Mesh", "The mesh object that is remeshed"),
+            ("App::PropertyLinkGlobal", "Surface", "Mesh", "The mesh object that is remeshed"),
             ("App::PropertyLength", "Size", "Mesh", "Length of elements"),
             ("App::PropertyEnumeration", "ElementOrder", "Mesh", "2nd: eight-node quads, 1st: four-node quads"),
             ("App::PropertyAngle", "FeatureAngle", "Mesh", "Smallest angle between neighboring triangles of two different "

@@ -38,6 +38,11 @@ def tell(text: str, title: str = "Quadrille") -> None:
     QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, text)
 
 
+def tell_briefly(text: str) -> None:
+    """Shows a message in FreeCAD's status line for ten seconds."""
+    FreeCADGui.getMainWindow().statusBar().showMessage(text, 10000)
+
+
 def standard_buttons(*names: str):
     """Buttons of a task panel, by their names in Qt. FreeCAD expects a number with PySide2, and flags with PySide6, where flags
     cannot be converted to numbers."""

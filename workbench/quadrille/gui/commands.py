@@ -14,14 +14,14 @@ from ..core.errors import Error
 from ..core.jobs import find_mesher
 from ..core.setting_table import ORDERS, TABLES, default_size
 from ..core.units import digits
-from ..document import picks, regions
+from ..document import containers, picks, regions
 from ..document.groups import analysis_of
 from ..document.state import is_quad_mesh, is_surface_mesh, part_of, source_of
 from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
-               progress_bar, tell, transaction, translate, views)
+               progress_bar, tell, tell_briefly, transaction, translate, views)
 from .length_field import LengthField
 from .mesh_clicks import picked
 
@@ -88,6 +88,7 @@ class _Command:
 
     name = text = tip = pixmap = accelerator = ""
     step = ""  #: name of the undo step; empty = none
+    selects = False  #: whether it needs a selection
 
     def GetResources(self) -> dict:
         """FreeCAD asks for text and icon, and translates the texts by the command's name."""
@@ -95,8 +96,9 @@ class _Command:
                 "Accel": self.accelerator}
 
     def IsActive(self) -> bool:
-        """True if a document is open, and no task panel."""
-        return FreeCAD.ActiveDocument is not None and not FreeCADGui.Control.activeDialog()
+        """True if a document is open, and no task panel; and something is selected, if the command needs that."""
+        return FreeCAD.ActiveDocument is not None and not FreeCADGui.Control.activeDialog() and (
+            not self.selects or bool(FreeCADGui.Selection.getSelection()))
 
     def Activated(self, _index: int = 0) -> None:
         """FreeCAD calls this when the command is clicked."""
@@ -132,6 +134,7 @@ class MeshCommand(_Command):
     pixmap = "quadrille_mesh"
     accelerator = "Q, M"
     step = "Create quad mesh"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -152,10 +155,31 @@ class MeshCommand(_Command):
             core.check_part(part, analysis)
         find_mesher()
         do("import quadrille.freecad")
+        settings = dict(preferences.settings())
+        if len(selected) == 1 and self._joins(selected[0]):
+            settings["imprint"] = True
         part = _one_part(selected)
         # The mesh object's panel finds a size.
-        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(preferences.settings(), analysis)})")
+        do(f"quadrille.freecad.make_mesh({path_of(part)}{_arguments(settings, analysis)})")
         self._edit, self._made = [obj for obj in document.Objects if is_quad_mesh(obj)][-1], True
+
+    def _joins(self, part) -> bool:
+        """Asks whether to join the solids of a container or compound where they touch. Tells which ones in it are hidden."""
+        hidden = ", ".join(obj.Label for obj in containers.hidden_solids(part))
+        told = translate("Quadrille", "Hidden in it, and not meshed: {}").format(hidden) if hidden else ""
+        touching = containers.touching_solids(part.Shape)
+        if touching:
+            question = translate("Quadrille", "{} has {} solids that touch or cross. Join them there (Imprint), so that they share "
+                                 "nodes?").format(part.Label, touching)
+            return self.ask("\n\n".join(filter(None, (question, told))))
+        if told:
+            text = f"{part.Label}: {told}"
+            FreeCAD.Console.PrintWarning(text + "\n")
+            tell_briefly(text)
+        return False
+
+    #: Asks a yes-or-no question in a message box.
+    ask = staticmethod(middle_search.ask)
 
     def afterwards(self) -> None:
         if self._edit is None:
@@ -176,6 +200,7 @@ class MiddleCommand(_Command):
     pixmap = "quadrille_middle"
     accelerator = "Q, I"
     step = "Create middle surface"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -210,6 +235,7 @@ class SurfaceCommand(_Command):
     pixmap = "quadrille_surface"
     accelerator = "Q, S"
     step = "Create quad mesh from mesh"
+    selects = True
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
@@ -268,6 +294,7 @@ class RefineCommand(_Command):
     accelerator = "Q, R"
     pixmap = "quadrille_refine"
     step = "Refine quad mesh"
+    selects = True
 
     def run(self) -> None:
         mesh = mesh_in_question()

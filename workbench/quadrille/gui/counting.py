@@ -44,12 +44,15 @@ class Counting:
         self._asked = (shape, settings, wanted)
         self._settle.start()
 
-    def finish(self) -> None:
-        """Waits for the answer."""
+    def finish(self, go_on: Callable[[], bool]) -> bool:
+        """Waits for the answer, while go_on(), which is called again and again, returns True."""
         self._start()
         while self._job is not None:
             time.sleep(_POLL_MILLISECONDS / 1000)
+            if not go_on():
+                return False
             self._poll()
+        return True
 
     def release(self) -> None:
         """Drops the request that is not answered yet."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One element of a mesh, clicked in the 3-D view or chosen from a list: its face, its measures, and the cause of its shape."""
 
-from typing import Callable, Optional
+from typing import Callable, NamedTuple, Optional
 
 import numpy as np
 from PySide import QtGui
@@ -12,21 +12,32 @@ from ..document import groups, picks
 from . import mesh_clicks, overlays, translate
 
 
+#: The width of the ball that *Refine here* makes finer, in sides of the element.
+_BALL = 3
+
+
+class Ball(NamedTuple):
+    """A place to refine: an entry of SizeIn."""
+
+    place: str  #: such as "sphere:1,2,3,0.5": center and radius
+    size: float
+
+
 class ElementView(QtGui.QWidget):
     """Describes an element, and offers to refine there. Follows clicks on the mesh until release() is called."""
 
-    def __init__(self, mesh, measured: Callable[[], quality.ElementQuality], refine: Callable[[str, float], None]) -> None:
+    def __init__(self, mesh, measured: Callable[[], quality.ElementQuality], refine: Callable[[Ball], None]) -> None:
         super().__init__()
         self._mesh, self._measured = mesh, measured
-        self._face, self._size = "", 0.0
+        self._ball = Ball("", 0.0)
         self._groups: Optional[groups.PartGroups] = None
         self.text = QtGui.QLabel()
         self.text.setObjectName("QuadrilleElement")
         self.text.setWordWrap(True)
         self.refine = QtGui.QPushButton(translate("Quadrille", "Refine here"))
         self.refine.setObjectName("QuadrilleRefineHere")
-        self.refine.setToolTip(translate("Quadrille", "Half the size of the element, on its whole face"))
-        self.refine.clicked.connect(lambda *_: refine(self._face, self._size))
+        self.refine.setToolTip(translate("Quadrille", "Half the size of the element, in a ball three elements wide around it"))
+        self.refine.clicked.connect(lambda *_: refine(self._ball))
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.text)
@@ -75,16 +86,17 @@ class ElementView(QtGui.QWidget):
     def show_element(self, index: int) -> None:
         """Describes an element, by its index in the measures."""
         measured = self._measured()
-        self._face, self._size = self.face_of(index), 0.5 * float(measured.lengths[index])
+        length = float(measured.lengths[index])
+        sphere = (*measured.centers[index], 0.5 * _BALL * length)
+        self._ball = Ball("sphere:" + ",".join(f"{float(value):.6g}" for value in sphere), float(digits(0.5 * length)))
         criteria = measured.criteria
         text = translate("Quadrille", "Element {} on {}: q {}, aspect {}, angles {} to {} degrees").format(
-            measured.ids[index], self._face or "?", digits(round(float(measured.q[index]), 3)), digits(float(measured.aspect[index])),
+            measured.ids[index], self.face_of(index) or "?", digits(round(float(measured.q[index]), 3)), digits(float(measured.aspect[index])),
             digits(round(float(criteria["angle_min"][index]), 1)), digits(round(float(criteria["angle_max"][index]), 1)))
         forced = self.forced_by(index)
         if forced:
             text += "; " + translate("Quadrille", "forced by {}").format(forced)
         self.text.setText(text)
-        self.refine.setVisible(bool(self._face))
         self.setVisible(True)
 
     def _part_groups(self) -> groups.PartGroups:

@@ -87,6 +87,13 @@ class EntryRows(RowList):
         self.show_all(shown)
         self._changed()
 
+    def select(self, name: str, place: str):
+        """Selects the numbers of an entry, for typing others. Returns their field."""
+        row = next(row for row in self._rows if (row.property, row.place) == (name, place))
+        row.box.setFocus()
+        row.box.selectAll()
+        return row.box
+
     def _remove(self, number: int) -> None:
         rest: Dict[str, List[str]] = {name: [] for name in PROPERTIES}
         for index, row in enumerate(self._rows):

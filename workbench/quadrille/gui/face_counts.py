@@ -17,10 +17,19 @@ class FaceCounts(QtGui.QListWidget):
         self.setObjectName("QuadrilleFaceCounts")
         self.setMaximumHeight(120)
         self.itemClicked.connect(self._select)
+        self._open = False
 
     def show_counts(self, counts: Mapping[str, float]) -> None:
         """Shows counts by face, but fills the list only when it is visible, since it may have thousands of rows."""
         self._counts = counts
+        if not counts:
+            self.clear()
+        self.open(self._open)
+
+    def open(self, is_open: bool) -> None:
+        """Called when the section around the list opens or closes. A list without rows is no use: it takes no room."""
+        self._open = is_open
+        self.setVisible(is_open and bool(self._counts))
         if self.isVisible():
             self._fill()
 

@@ -34,6 +34,7 @@ class _FemEntries:
         self._toolbar.addActions(list(self._actions.values()))
         self._timer = QtCore.QTimer(window)
         self._timer.timeout.connect(self._enable)
+        self._is_placed = False  # behind FreeCAD's own, which exist once its workbench has been activated
         self._has_menu = hasattr(FreeCADGui, "addWorkbenchManipulator")
         if self._has_menu:
             FreeCADGui.addWorkbenchManipulator(_Manipulator(toolbar))
@@ -42,6 +43,11 @@ class _FemEntries:
     def show(self, workbench: str) -> None:
         """Called when FreeCAD has activated a workbench and rebuilt its menus."""
         fem = workbench == _FEM
+        if fem and not self._is_placed:
+            self._is_placed = True
+            window = FreeCADGui.getMainWindow()
+            window.removeToolBar(self._toolbar)
+            window.addToolBar(self._toolbar)
         self._toolbar.setVisible(fem)
         if not fem:
             self._timer.stop()

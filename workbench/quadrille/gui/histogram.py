@@ -17,11 +17,13 @@ _MARGIN = 4
 class Histogram(QtGui.QWidget):
     """Bars over q from 0 to 1. Their heights are logarithmic, so that a few bad elements among many good ones are seen."""
 
-    def __init__(self) -> None:
+    def __init__(self, like) -> None:
+        """like: a table whose ground the bars have: a theme's style sheet may not give other widgets one."""
         super().__init__()
         self.setObjectName("QuadrilleHistogram")
         self.setMinimumSize(100, _HEIGHT)
         self.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
+        self._like = like
         self._counts: Optional[np.ndarray] = None
 
     def show_values(self, values: np.ndarray, bins: int) -> None:
@@ -54,7 +56,7 @@ class Histogram(QtGui.QWidget):
         painter.end()
 
     def _draw_axes(self, painter, area, marks, most: int, line: int) -> None:
-        painter.fillRect(area, self.palette().color(QtGui.QPalette.Base))
+        painter.fillRect(area, self._like.palette().color(QtGui.QPalette.Base))
         painter.setPen(self.palette().color(QtGui.QPalette.WindowText))
         painter.drawRect(area)
         for mark in marks:

@@ -17,6 +17,10 @@ from . import translate
 from .placeholders import dim_placeholder
 
 
+#: The field's smallest width, which grows with its text up to the other, in pixels.
+_LEAST_WIDTH, _MOST_WIDTH = 70, 125
+
+
 class LengthField(QtGui.QLineEdit):
     """Shows a length so that it can be read back exactly. If the length is optional (`otherwise` is given), 0 is shown as an
     empty field with `otherwise` as placeholder."""
@@ -28,9 +32,10 @@ class LengthField(QtGui.QLineEdit):
         dim_placeholder(self)
         self.setObjectName(name)
         # It may become narrow in a narrow panel, since its text scrolls.
-        self.setMinimumWidth(70)
+        self.setMinimumWidth(_LEAST_WIDTH)
         self.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
         self.editingFinished.connect(self._write_unit)
+        self.textChanged.connect(lambda *_: self._make_room())
 
     def show_length(self, millimeters: float) -> None:
         """Shows a length in the user's units, or in millimeters with all digits if the user's units would round it."""
@@ -44,6 +49,12 @@ class LengthField(QtGui.QLineEdit):
             exact = False
         self.setText(text if exact else f"{millimeters:.10g} mm")
         self.setCursorPosition(0)
+
+    def _make_room(self) -> None:
+        """Keeps the unit in sight: without its last letter, "0.993 mm" would be another length."""
+        frame = self.minimumSizeHint().width() - self.fontMetrics().maxWidth()  # of Qt's own hint, which is one letter wide
+        text = self.fontMetrics().boundingRect(self.text()).width() + self.fontMetrics().averageCharWidth()
+        self.setMinimumWidth(min(max(_LEAST_WIDTH, text + frame), _MOST_WIDTH))
 
     def show_otherwise(self, millimeters: Optional[float]) -> None:
         """Shows in the placeholder the length that is used while the field is empty."""

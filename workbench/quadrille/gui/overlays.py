@@ -19,6 +19,8 @@ FREE, CROSSED = "QuadrilleFree", "QuadrilleCrossedEdges"
 _shown: Dict[tuple, object] = {}
 #: The display modes that meshes had before they were colored.
 _modes: Dict[tuple, str] = {}
+#: How FreeCAD showed that they are selected.
+_styles: Dict[tuple, str] = {}
 
 
 def is_shown(mesh, kind: str) -> bool:
@@ -36,6 +38,14 @@ def hide(mesh, kind: str) -> None:
     mode = _modes.pop(key, None)
     if mode is not None:
         mesh.ViewObject.DisplayMode = mode
+    style = _styles.pop(key, None)
+    if style is not None:
+        _selection_style(mesh).set(style)
+
+
+def _selection_style(mesh):
+    """The field of the scene that says how a selected mesh is shown; unlike the view's property, the document does not store it."""
+    return mesh.ViewObject.RootNode.getField("selectionStyle")
 
 
 def _add(mesh, kind: str, node) -> None:
@@ -69,7 +79,8 @@ def _coordinates(points: np.ndarray):
 
 
 def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> None:
-    """Colors the quads by q or a criterion, from red (worst) through yellow (a criterion's limit) to blue (best)."""
+    """Colors the quads by q or a criterion, from red (worst) through yellow (a criterion's limit) to blue (best). A box shows
+    meanwhile that the mesh is selected, since FreeCAD would add the color of selections to the quads."""
     from pivy import coin
 
     hide(mesh, QUALITY)
@@ -86,8 +97,11 @@ def show_quality(mesh, measured: quality.ElementQuality, measure: str = "q") -> 
     faces = coin.SoFaceSet()
     faces.numVertices.setValues(0, len(colors), [4] * len(colors))
     _show(mesh, QUALITY, _group(material, binding, hints, offset, _coordinates(measured.corners.reshape(-1, 3)), faces))
+    key = (mesh.Document.Name, mesh.Name, QUALITY)
+    _styles[key] = _selection_style(mesh).get().getString()
+    _selection_style(mesh).set("Box")
     if mesh.ViewObject.DisplayMode != "Wireframe":
-        _modes[(mesh.Document.Name, mesh.Name, QUALITY)] = mesh.ViewObject.DisplayMode
+        _modes[key] = mesh.ViewObject.DisplayMode
         mesh.ViewObject.DisplayMode = "Wireframe"
 
 

@@ -10,8 +10,8 @@ from PySide import QtCore, QtGui
 from ..core import quality
 from ..core.units import digits
 from ..solvers import checklist
-from . import QT_TRANSLATE_NOOP, do, drawn_icon, links_text, overlays, path_of, standard_buttons, transaction, translate
-from .element_view import ElementView
+from . import QT_TRANSLATE_NOOP, do, drawn_icon, overlays, path_of, standard_buttons, transaction, translate
+from .element_view import Ball, ElementView
 from .histogram import Histogram
 from .wheel import calm
 
@@ -47,8 +47,8 @@ MEASURES = {
 class QualityWidget(QtGui.QWidget):
     """The quality of one mesh object. The first table shows the mesher's numbers; the rest is measured here."""
 
-    def __init__(self, mesh, refine: Callable[[str, float], None]) -> None:
-        """refine: called with a face and a size where the user wants that face finer."""
+    def __init__(self, mesh, refine: Callable[[Ball], None]) -> None:
+        """refine: called with a place that the user wants finer."""
         super().__init__()
         self.mesh = mesh
         self._measured: Optional[quality.ElementQuality] = None
@@ -65,9 +65,9 @@ class QualityWidget(QtGui.QWidget):
         self.table.horizontalHeader().setVisible(False)
         self.criteria = _table("QuadrilleCriteria", 4)
         self.criteria.setHorizontalHeaderLabels([
-            translate("Quadrille", "Criterion"), translate("Quadrille", "Limit"), translate("Quadrille", "Fail"),
-            translate("Quadrille", "Worst")])
-        self.histogram = Histogram()
+            translate("Quadrille", "Criterion"), translate("Quadrille", "Fail"), translate("Quadrille", "Worst"),
+            translate("Quadrille", "Mean")])
+        self.histogram = Histogram(self.criteria)
         self.measure = QtGui.QComboBox()
         self.measure.setObjectName("QuadrilleMeasure")
         self.measure.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
@@ -82,7 +82,10 @@ class QualityWidget(QtGui.QWidget):
         self.free.setObjectName("QuadrilleFree")
         self.free.setToolTip(translate("Quadrille", "Sides of one element only, and nodes at the same place"))
         self.free.toggled.connect(self._show_free)
+        self.worst_title = QtGui.QLabel(translate("Quadrille", "Worst elements (click on one)"))
         self.worst = QtGui.QListWidget()
+        self.worst.setWordWrap(True)
+        self.worst.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
         self.worst.setObjectName("QuadrilleWorst")
         self.worst.setMaximumHeight(120)
         self.worst.currentRowChanged.connect(self._show_element)
@@ -101,7 +104,7 @@ class QualityWidget(QtGui.QWidget):
         layout.addWidget(self.criteria)
         layout.addLayout(by)
         layout.addWidget(self.free)
-        layout.addWidget(QtGui.QLabel(translate("Quadrille", "Worst elements (click on one)")))
+        layout.addWidget(self.worst_title)
         layout.addWidget(self.worst)
         layout.addWidget(self.element)
         self.refresh()
@@ -115,6 +118,8 @@ class QualityWidget(QtGui.QWidget):
         self.criteria.setRowCount(0)
         self.ready.setVisible(False)
         self.setVisible(self.mesh.FemMesh.FaceCount > 0)
+        for widget in (self.histogram, self.criteria, self.worst_title, self.worst):  # until they have something to show
+            widget.setVisible(False)
         if not self.mesh.FemMesh.FaceCount:
             return
         overlays.hide(self.mesh, overlays.ELEMENT)
@@ -174,13 +179,16 @@ class QualityWidget(QtGui.QWidget):
             return
         if not measured.ids.size:  # the mesh has been undone
             return
+        for widget in (self.histogram, self.criteria, self.worst_title, self.worst):
+            widget.setVisible(True)
         self.histogram.show_values(measured.q, BINS)
         rows = []
         for name, (ideal, limit) in measured.limits.items():
             values = measured.criteria[name]
             worst = values.max() if limit > ideal else values.min()
             told = f"{limit:.2g}" if name == "min_length" else f"{limit:g}"
-            rows.append((translate("Quadrille", MEASURES[name]), told, f"{int(measured.fails(name).sum())}", digits(worst)))
+            rows.append((f"{translate('Quadrille', MEASURES[name])} {'≤' if limit > ideal else '≥'} {told}",
+                         f"{int(measured.fails(name).sum())}", f"{worst:.3g}", f"{values.mean():.2g}"))
         _fill(self.criteria, rows)
         self._tell_what_is_missing()
         self._list_worst()
@@ -261,10 +269,18 @@ def _note(name: str):
 def _table(name: str, columns: int):
     table = QtGui.QTableWidget(0, columns)
     table.setObjectName(name)
+    font = table.font()
+    if font.pointSizeF() > 0:
+        font.setPointSizeF(0.9 * font.pointSizeF())
+        table.setFont(font)
+        table.horizontalHeader().setFont(font)
     table.verticalHeader().setVisible(False)
     table.horizontalHeader().setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
     table.horizontalHeader().setMinimumSectionSize(16)
-    table.horizontalHeader().setSectionResizeMode(columns - 1 if columns == 2 else 0, QtGui.QHeaderView.Stretch)
+    table.horizontalHeader().setSectionResizeMode(0, QtGui.QHeaderView.Stretch)  # names wrap, numbers do not
+    table.verticalHeader().setMinimumSectionSize(20)
+    table.verticalHeader().setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
+    table.verticalHeader().sectionResized.connect(lambda *_: _fit(table))
     table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
     table.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
     table.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
@@ -277,9 +293,13 @@ def _fill(table, rows) -> None:
     for row, texts in enumerate(rows):
         for column, text in enumerate(texts):
             table.setItem(row, column, QtGui.QTableWidgetItem(text))
-        table.setRowHeight(row, 20)
+    _fit(table)
+
+
+def _fit(table) -> None:
+    """Makes the table as high as its rows."""
     head = table.horizontalHeader().sizeHint().height() if table.horizontalHeader().isVisibleTo(table) else 0
-    table.setFixedHeight(20 * len(rows) + head + 4)
+    table.setFixedHeight(table.verticalHeader().length() + head + 4)
 
 
 def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
@@ -314,11 +334,12 @@ class QualityPanel:
         self.form.setWindowIcon(drawn_icon("quadrille_quality"))
         self.quality.color.setChecked(True)
 
-    def _refine(self, face: str, size: float) -> None:
-        """Adds a refinement, which the next meshing follows."""
+    def _refine(self, ball: Ball) -> None:
+        """Adds a size at a place, which the next meshing follows."""
         with transaction(self._mesh.Document, "Refine quad mesh"):
             do("import quadrille.freecad")
-            do(f"quadrille.freecad.refine({path_of(self._mesh)}, {links_text([(self._mesh.Shape, (face,))])}, {float(digits(size))!r})")
+            others = [entry for entry in self._mesh.SizeIn if entry.rpartition("=")[0] != ball.place]
+            do(f"{path_of(self._mesh)}.SizeIn = {[*others, f'{ball.place}={digits(ball.size)}']!r}")
             self._mesh.Document.recompute()
 
     def getStandardButtons(self):

@@ -29,11 +29,21 @@ class Scrolled(QtGui.QWidget):
         self._timer.setSingleShot(True)
         self._timer.setInterval(0)
         self._timer.timeout.connect(self._fit)
+        self._bringing = QtCore.QTimer(self)  # ends with the panel
+        self._bringing.setSingleShot(True)
+        self._bringing.setInterval(0)
+        self._bringing.timeout.connect(lambda: self._area.ensureWidgetVisible(self._brought, 0, 30))
+        self._brought: Optional[QtGui.QWidget] = None
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self._area, 1)
         layout.addWidget(self.below)
         self.content.installEventFilter(self)
+
+    def bring(self, widget) -> None:
+        """Scrolls to a widget of the upper part, once it has its place."""
+        self._brought = widget
+        self._bringing.start()
 
     def showEvent(self, event) -> None:
         """Qt calls this when the panel is shown."""

@@ -9,6 +9,7 @@ import numpy as np
 from PySide import QtCore, QtGui
 
 from ..core.errors import Error
+from ..core.setting_table import SETTINGS
 from ..core.units import digits
 from ..document.state import Wanted
 from ..features import sizes
@@ -19,6 +20,8 @@ _POLL_MILLISECONDS = 50
 _SETTLE_MILLISECONDS = 400
 #: Number of values handed to the 3-D view at a time, which takes some milliseconds.
 _PIECE = 20000
+#: The properties that have fields in the panel.
+_FIELDS = frozenset(setting["property"] for setting in SETTINGS if setting["property"])
 
 
 class SizePreview(QtGui.QWidget):
@@ -94,7 +97,7 @@ class SizePreview(QtGui.QWidget):
         except Error as error:
             self._fail(error)
             return
-        self._show_text(translate("Quadrille", "finding sizes"))
+        self._show_work(translate("Quadrille", "finding sizes"))
         self._timer.setInterval(_POLL_MILLISECONDS)
         self._timer.start()
 
@@ -115,7 +118,7 @@ class SizePreview(QtGui.QWidget):
             self._timer.stop()
             return
         for _, fraction in self._job.poll():
-            self._show_text(translate("Quadrille", "finding sizes: {} %").format(round(100 * fraction)))
+            self._show_work(translate("Quadrille", "finding sizes: {} %").format(round(100 * fraction)))
         if self._job.running:
             return
         job, self._job = self._job, None
@@ -131,7 +134,7 @@ class SizePreview(QtGui.QWidget):
 
     def _fail(self, error: Error) -> None:
         self._clear()
-        self._show_text(str(error))
+        self._show_text("" if error.subject in _FIELDS else str(error))  # else it stands at the field
 
     def _clear(self) -> None:
         drawn, self._drawn = self._drawn, None
@@ -156,6 +159,11 @@ class SizePreview(QtGui.QWidget):
             if view is not None and view.Visibility:
                 view.hide()
                 self._hidden.append(view)
+
+    def _show_work(self, text: str) -> None:
+        """Shows what goes on, in the first line; the others stay, so that what is below does not jump."""
+        _, *others = self.text.text().split("\n") if self._drawn is not None else [""]
+        self._show_text("\n".join((text, *others)), bool(others))
 
     def _show_text(self, text: str, with_bar: bool = False) -> None:
         self.text.setText(text)

@@ -20,9 +20,12 @@ from ..core.units import digits
 from ..document import groups, links, old_documents, picks, shapes, state
 from ..features import mesh_object as core
 from ..features.sizes import Count
-from ..solvers import results
-from . import do, drawn_icon, links_text, mesh_clicks, path_of, preferences, standard_buttons, tell, translate
+from ..solvers import element_types, results
+from . import (background, do, drawn_icon, links_text, mesh_clicks, path_of, preferences, progress_bar, standard_buttons, tell,
+               tell_briefly, translate)
 from .counting import FAILURES, Counting
+from .element_choice import ElementChoice
+from .element_view import Ball
 from .entry_rows import NAMES, EntryRows
 from .entry_rows import PROPERTIES as ENTRIES
 from .face_counts import FaceCounts
@@ -34,6 +37,7 @@ from .scrolled import Scrolled
 from .session import Session
 from .setting_widgets import setting_widgets
 from .size_preview import SizePreview
+from .stages import words_of
 from .thin_hint import thin_hint
 from .wheel import calm
 
@@ -46,6 +50,8 @@ _SIZE_TO_MINIMUM = 8
 _CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
+#: Stands for the field that an error concerns if it concerns none: it is shown below the expected number.
+_NO_FIELD = ""
 
 
 class MeshPanel:
@@ -61,12 +67,12 @@ class MeshPanel:
         self._job_wanted: state.Wanted  # set with the job
         self._anew: set = set()
         self._refused: Dict[str, str] = {}  # what the mesher has said about fields that have not changed since, by property
-        self._started = 0.0
         self._part_was_visible = mesh.Shape.ViewObject.Visibility
         self._counting = Counting(self._counted)
         # A new mesh gets a size, unless the user gives one before it is found.
         self._suggests = bool(made_by) and not mesh.Size
         self._mesh_when_suggested = False
+        self._refined_here = False  # since the mesh was made
         self._build()
         self._load()
         self._timer = QtCore.QTimer()  # without the form as parent: it must outlive a form that FreeCAD deletes
@@ -78,6 +84,10 @@ class MeshPanel:
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         QtCore.QTimer.singleShot(0, self._hint_at_thin)
         self._update_estimate()
+        job = background.take_back(mesh)
+        if job is not None:
+            self._job_wanted = state.wanted_of(mesh)
+            self._follow(job)
 
     # Widgets
 
@@ -88,8 +98,9 @@ class MeshPanel:
         self.settings = setting_widgets()
         self.suggest = _button("QuadrilleSuggest", translate("Quadrille", "Suggest"),
                                translate("Quadrille", "The size that gives about {} elements").format(preferences.suggested_quads()))
-        self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "Take"),
+        self.take_selection = _button("QuadrilleTakeSelection", translate("Quadrille", "From selection"),
                                       translate("Quadrille", "Mesh only the faces that are selected in the 3-D view"))
+        self.element = ElementChoice()
         self.surfaces = QtGui.QCheckBox(translate("Quadrille", "Stresses at the surfaces"))
         self.surfaces.setObjectName("QuadrilleSurfaces")
         self.surfaces.setToolTip(translate(
@@ -98,6 +109,7 @@ class MeshPanel:
         self.estimate = QtGui.QLabel()
         self.estimate.setObjectName("QuadrilleEstimate")
         self.estimate.setWordWrap(True)
+        self.estimate_error = FieldError("Estimate")
         self.by_face = FaceCounts(self.mesh)
         self.refinements = RefinementList(self._refine_selection, lambda: self._changed("Refinements"))
         self.refinements_error, self.entries_error = FieldError("Refinements"), FieldError("Entries")
@@ -114,12 +126,17 @@ class MeshPanel:
         self.show_other.clicked.connect(lambda *_: mesh_clicks.toggle(self.mesh))
         self.bar = QtGui.QProgressBar()
         self.bar.setObjectName("QuadrilleProgress")
+        policy = self.bar.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)  # the buttons above do not move when it appears
+        self.bar.setSizePolicy(policy)
+        self.bar.hide()
         self.log = QtGui.QPlainTextEdit()
         self.log.setObjectName("QuadrilleLog")
         self.log.setReadOnly(True)
         self.log.setMaximumHeight(80)
+        self.log.hide()  # until there is something to say
         self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        self.quality = QualityWidget(self.mesh, self._refine_face)
+        self.quality = QualityWidget(self.mesh, self._refine_here)
         self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
@@ -140,7 +157,7 @@ class MeshPanel:
             (basic if name in _IN_SIGHT else more).addRow(setting.label, below(widget, setting.error))
         if self._solvers():
             basic.addRow(self.surfaces)
-        basic.addRow(translate("Quadrille", "Expected"), self.estimate)
+        basic.addRow(translate("Quadrille", "Expected"), below(self.estimate, self.estimate_error))
         layout = QtGui.QVBoxLayout(self.form.content)
         if is_missing():
             choice = MesherChoice(lambda _command: choice.hide())
@@ -148,7 +165,7 @@ class MeshPanel:
         self._hint = QtGui.QVBoxLayout()
         layout.addLayout(self._hint)
         layout.addLayout(basic)
-        layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False))
+        layout.addWidget(_section("QuadrilleByFace", translate("Quadrille", "Expected by face"), self.by_face, False, self.by_face.open))
         layout.addWidget(self.preview)
         layout.addWidget(self.show_other)
         layout.addWidget(self.log)
@@ -160,10 +177,12 @@ class MeshPanel:
         rows.addWidget(below(self.entries, self.entries_error))
         refinements = _section("QuadrilleRefinements", translate("Quadrille", "Refinements"), listed,
                                any(getattr(self.mesh, name) for name in ("MeshRegionList", state.ADAPTED, *ENTRIES)))
+        more.addRow(translate("Quadrille", "Elements"), self.element)
         holder = QtGui.QWidget()
         holder.setLayout(more)
+        is_plain_shell = self.mesh.Element == element_types.SHELL
         changed = any(name not in _IN_SIGHT and getattr(self.mesh, name) != default
-                      for name, default in core.defaults().items() if name in self.settings)
+                      for name, default in core.defaults().items() if name in self.settings) or not is_plain_shell
         layout.addWidget(refinements)
         layout.addWidget(_section("QuadrilleMore", translate("Quadrille", "More settings"), holder, changed))
         layout.addWidget(self.quality)
@@ -178,6 +197,7 @@ class MeshPanel:
         for name, setting in self.settings.items():
             value = wanted.values[name]
             setting.show(links.names_in(value) if name in links.OWN else value)
+        self.element.show_element(self.mesh.Element)
         self.follows.setVisible(bool(wanted.values[state.ADAPTED]))
         self.follows.setChecked(wanted.values[state.FOLLOWS])
         self.entries.show_all(wanted.values)
@@ -185,7 +205,8 @@ class MeshPanel:
         self.surfaces.setChecked(all(getattr(solver, results.SURFACE_RESULTS) for solver in self._solvers()))
 
     def _solvers(self) -> list:
-        return results.solvers_of(groups.analysis_of(self.mesh))
+        """Those that can give stresses at the surfaces; none for elements that have no bending."""
+        return results.solvers_of(groups.analysis_of(self.mesh)) if element_types.is_shell(self.mesh) else []
 
     # Settings
 
@@ -229,6 +250,8 @@ class MeshPanel:
                 lines.append(f"quadrille.freecad.refine({path_of(mesh)}, {links_text(references)}, {size!r})")
             elif size != sizes.get(region, size):  # a region that was deleted meanwhile stays deleted
                 lines.append(f"{path_of(mesh.Document.getObject(region))}.CharacteristicLength = {size!r}")
+        if self.element.element() != mesh.Element:
+            lines.append(f"{path_of(mesh)}.Element = {self.element.element()!r}")
         surfaces = self.surfaces.isChecked()
         lines += [f"{path_of(solver)}.{results.SURFACE_RESULTS} = {surfaces!r}" for solver in self._solvers()
                   if getattr(solver, results.SURFACE_RESULTS) != surfaces]
@@ -254,7 +277,7 @@ class MeshPanel:
 
     def _changed(self, *names: str) -> None:
         """Called when a field has changed, or one of several: what the mesher said about it no longer holds."""
-        for name in names:
+        for name in (*names, _NO_FIELD):
             self._refused.pop(name, None)
         if "Size" in names:
             self._suggests = False
@@ -267,12 +290,25 @@ class MeshPanel:
             error: the error when all fields were used together.
         """
         sentences = dict(self._refused)
-        if isinstance(error, Error):
+        if error is not None:
             sentences[self._field_of(error)] = str(error)
         for name, setting in self.settings.items():
             setting.error.tell(self._wrong_in(name) or sentences.get(name, ""))
         self.refinements_error.tell(sentences.get("Refinements", ""))
         self.entries_error.tell("\n".join(sentences[name] for name in ENTRIES if name in sentences))
+        self.estimate_error.tell(sentences.get(_NO_FIELD, ""))
+
+    def _point_out(self, error: Error) -> bool:
+        """Scrolls to the field that an error concerns, where it stands in red; opens the section around it. False if it concerns no
+        field."""
+        name = self._field_of(error)
+        if name == _NO_FIELD:
+            return False
+        if name not in _IN_SIGHT:
+            self.form.findChild(QtGui.QToolButton, "QuadrilleMore" if name in self.settings else "QuadrilleRefinements").setChecked(True)
+        self.form.bring(self.settings[name].error if name in self.settings else
+                        self.refinements_error if name == "Refinements" else self.entries_error)
+        return True
 
     def _wrong_in(self, name: str) -> str:
         """What is wrong with a field by itself."""
@@ -284,10 +320,13 @@ class MeshPanel:
             return str(error)
         return ""
 
-    def _field_of(self, error: Error) -> str:
-        """The property that an error concerns; "Refinements" for all of these; else what the error says itself."""
+    def _field_of(self, error: Exception) -> str:
+        """The property that an error concerns, if it has a field here; "Refinements" for all of these; else _NO_FIELD."""
+        subject = getattr(error, "subject", "")
         regions = {entry.region for entry in state.wanted_of(self.mesh).refinements if entry.region}
-        return "Refinements" if error.subject in regions else error.subject
+        if subject in regions:
+            return "Refinements"
+        return subject if subject in self.settings or subject in ENTRIES or subject == "Refinements" else _NO_FIELD
 
     def _show_minimum(self) -> None:
         """Shows the minimum size that holds where none is given: it follows the size."""
@@ -309,19 +348,17 @@ class MeshPanel:
             shapes.check_size(shape, (self._usual_size(), *settings.get("sizes", {}).values()))
         except FAILURES as error:
             self._counting.release()
-            self._show_count_or(str(error))
-            self._show_errors(error)
+            self._show_no_count(error)
             return
         self._show_status(wanted, found)
-        self.estimate.setText("...")
+        self.estimate.setText(f"{self.estimate.text().rstrip('. –')} ...".lstrip())  # what follows does not jump
         self._counting.ask(shape, settings, preferences.suggested_quads() if self._suggests else 0)
 
     def _counted(self, count: Optional[Count], problem: Optional[Exception]) -> None:
         """Called when the quads are counted, or cannot be."""
         if count is None:
             self._suggests = False
-            self._show_count_or(str(problem))
-            self._show_errors(problem)
+            self._show_no_count(problem)
         else:
             if self._suggests:
                 self._take_suggestion(count.size)
@@ -338,9 +375,11 @@ class MeshPanel:
         self.settings["Size"].show(size)
         self._show_minimum()
 
-    def _show_count_or(self, problem: str) -> None:
+    def _show_no_count(self, problem: Optional[Exception]) -> None:
+        """Shows that there is no count, and why: at the field concerned, or here."""
         self.by_face.show_counts({})
-        self.estimate.setText(problem)
+        self.estimate.setText("–")
+        self._show_errors(problem)
 
     def _show_status(self, wanted: state.Wanted, found) -> None:
         """Says whether the mesh is that of the settings in the panel, which the document may not have yet."""
@@ -386,8 +425,12 @@ class MeshPanel:
         if usual is not None:
             self.refinements.add(links.link(self.mesh.Shape, names), float(digits(usual / 2)))
 
-    def _refine_face(self, face: str, size: float) -> None:
-        self.refinements.add(links.link(self.mesh.Shape, [face]), float(digits(size)))
+    def _refine_here(self, ball: Ball) -> None:
+        """Adds a size at a place, and shows its row."""
+        self.entries.add("SizeIn", {ball.place: digits(ball.size)})
+        self.form.findChild(QtGui.QToolButton, "QuadrilleRefinements").setChecked(True)
+        self.form.bring(self.entries.select("SizeIn", ball.place))
+        self._refined_here = True
 
     def _divide_selection(self) -> None:
         names = self._picked("Edge")
@@ -437,17 +480,22 @@ class MeshPanel:
             return
         self.mesh_button.setEnabled(True)
         self.log.clear()
+        self.log.hide()
         self._refused.clear()
         self._show_errors()
         try:
             self._job_wanted = self._wanted()
-            self._job = core.start(self.mesh, wanted=self._job_wanted)
+            job = core.start(self.mesh, wanted=self._job_wanted)
         except Error as error:
-            self._say(str(error))
             self._show_errors(error)
-            tell(str(error))
+            if not self._point_out(error):
+                tell(str(error))
             return
-        self._started = time.monotonic()
+        self._follow(job)
+
+    def _follow(self, job: core.ShapeJob) -> None:
+        """Shows the progress of a job, until it ends."""
+        self._job = job
         self._show_progress(0)
         self.mesh_button.setEnabled(False)
         self.stop_button.setEnabled(True)
@@ -471,20 +519,24 @@ class MeshPanel:
         QtCore.QTimer.singleShot(_STAND_BY_MILLISECONDS, self._stand_by)
         self.mesh_button.setEnabled(True)
         self.stop_button.setEnabled(False)
-        ended = time.monotonic()
+        ended, worst_before = time.monotonic(), self.mesh.WorstQuality
         try:
             _, report = job.result()
             with self._session.step("Quad mesh"):
                 self._store(self._commands(self._job_wanted))
-                core.hand_over(self.mesh, job)
-                do(f"quadrille.freecad.remesh({path_of(self.mesh)})")
+                background.store(self.mesh, job)
         except Error as error:
             core.forget(self._document_name, self._name)
             self._show_progress(0)
-            self._say(str(error))
+            self.bar.hide()
+            self.log.clear()
+            if error.kind == "cancelled":
+                self._say(str(error))
+                return
+            self.log.hide()
             self._refused[self._field_of(error)] = str(error)
             self._show_errors()
-            if error.kind != "cancelled":
+            if not self._point_out(error):
                 tell(str(error))
             return
         self.preview.button.setChecked(False)
@@ -493,18 +545,27 @@ class MeshPanel:
                 self._say(line)
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
-            self.mesh.QuadCount, digits(round(ended - self._started, 2)), digits(round(time.monotonic() - ended, 2))))
-        self.mesh.ViewObject.show()
-        if self.mesh.Shape is not None:  # None if it was deleted while the mesher worked
-            self.mesh.Shape.ViewObject.hide()
+            self.mesh.QuadCount, digits(round(ended - job.started, 2)), digits(round(time.monotonic() - ended, 2))))
+        self._tell_if_worse(worst_before)
+        background.show(self.mesh)
         self.quality.refresh()
         if preferences.color_after_meshing():
             self.quality.color.setChecked(True)
 
+    def _tell_if_worse(self, before: float) -> None:
+        """Says so if the smallest q fell by a refinement at a place, which may force small elements beside large ones."""
+        refined, self._refined_here = self._refined_here, False
+        worst = f"{self.mesh.WorstQuality:.3f}"
+        if refined and float(worst) < float(f"{before:.3f}"):
+            text = translate("Quadrille", "refined where asked: the smallest q fell from {} to {}").format(f"{before:.3f}", worst)
+            self._say(text)
+            tell_briefly(f"{self.mesh.Label}: {text}")
+
     def _show_progress(self, fraction: float, stage: str = "") -> None:
+        self.bar.setVisible(True)
         self.bar.setUpdatesEnabled(False)  # a new value would repaint at once, and Qt would redraw the whole window
         self.bar.setValue(round(100 * fraction))
-        self.bar.setFormat(f"{stage} %p %".lstrip())
+        self.bar.setFormat(f"{words_of(stage)} %p %".lstrip())
         self.bar.setUpdatesEnabled(True)
 
     def _stand_by(self) -> None:
@@ -518,6 +579,7 @@ class MeshPanel:
 
     def _say(self, text: str) -> None:
         self.log.appendPlainText(text)
+        self.log.setVisible(True)
 
     # Opening and closing
 
@@ -526,23 +588,27 @@ class MeshPanel:
         return standard_buttons("Ok", "Cancel")
 
     def accept(self) -> bool:
-        """Called on OK: keeps mesh and settings, ends the mesher."""
+        """Called on OK: keeps mesh and settings; the mesher goes on in the background."""
         try:
             if self._suggests:
-                self._counting.finish()
+                with progress_bar(translate("Quadrille", "Finding a size")) as show:
+                    if not self._counting.finish(lambda: show("", 0)):
+                        return False
             # If the part has been deleted meanwhile, there is nothing to set.
             lines = self._commands(self._wanted()) if self.mesh.Shape is not None else []
         except Error as error:
-            tell(str(error))
+            self._show_errors(error)
+            if not self._point_out(error):
+                tell(str(error))
             return False
-        if self._job is not None:
-            self._job.cancel()
-            self._end(self._job)
         if lines:
             with self._session.step("Quad mesh settings"):
                 self._store(lines)
         self._session.keep()
+        job, self._job = self._job, None
         self._close()
+        if job is not None:
+            background.go_on(self.mesh, job)
         self.mesh.Document.recompute()
         return True
 
@@ -584,11 +650,13 @@ class MeshPanel:
         QtCore.QTimer.singleShot(0, FreeCADGui.Control.closeDialog)
 
     def _form_gone(self, *_) -> None:
-        """Called when FreeCAD has closed the panel by itself: ends the mesher, since its mesh can no longer be stored."""
+        """Called when FreeCAD has closed the panel by itself: ends the mesher, as the settings can no longer be stored."""
         job, self._job = self._job, None
         if job is not None:
             job.cancel()
             core.forget(self._document_name, self._name)
+            said = translate("Quadrille", "{}: not meshed, since its panel was closed").format(self._name)
+            FreeCAD.Console.PrintWarning(said + "\n")
         self._session.keep()
         self._leave()
 
@@ -638,8 +706,12 @@ def _form():
     return form
 
 
-def _section(name: str, title: str, content, is_open: bool):
-    """A section: content below a title that opens and closes it."""
+def _section(name: str, title: str, content, is_open: bool, show_content: Optional[Callable[[bool], None]] = None):
+    """A section: content below a title that opens and closes it.
+
+    Args:
+        show_content: shows or hides the content, if there is more to it.
+    """
     section = QtGui.QWidget()
     head = QtGui.QToolButton()
     head.setObjectName(name)
@@ -650,7 +722,7 @@ def _section(name: str, title: str, content, is_open: bool):
 
     def show(on: bool) -> None:
         head.setArrowType(QtCore.Qt.DownArrow if on else QtCore.Qt.RightArrow)
-        content.setVisible(on)
+        (show_content or content.setVisible)(on)
 
     head.toggled.connect(show)
     show(is_open)

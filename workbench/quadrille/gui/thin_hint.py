@@ -11,6 +11,36 @@ from ..features.middle import looks_thin
 from . import middle_search, tell, translate
 
 
+class _Hint(QtGui.QLabel):
+    """A sentence with a link in the color of the text, which can be read in any theme."""
+
+    def __init__(self, text: str, offer: str) -> None:
+        super().__init__()
+        self._parts = text, offer
+        self._color = ""
+        self.setObjectName("QuadrilleThinHint")
+        self.setWordWrap(True)
+        self._write()
+
+    def _write(self) -> None:
+        color = self.palette().color(QtGui.QPalette.WindowText).name()
+        if color != self._color:
+            self._color = color
+            text, offer = self._parts
+            self.setText(f'{text} <a href="middle" style="color: {color}">{offer}</a>')
+
+    def changeEvent(self, event) -> None:
+        """Qt calls this when the theme has changed, too."""
+        super().changeEvent(event)
+        if event.type() in (QtCore.QEvent.PaletteChange, QtCore.QEvent.StyleChange):
+            self._write()
+
+    def showEvent(self, event) -> None:
+        """Qt calls this when the hint is shown."""
+        self._write()
+        super().showEvent(event)
+
+
 def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
     """A label with a link that finds the middle surface, closes the panel and runs the command Middle surface; None if the part does
     not look thin. If there is no middle surface, or the search is cancelled, the panel stays as it is."""
@@ -22,9 +52,7 @@ def thin_hint(part, close: Callable[[], object]) -> Optional[QtGui.QLabel]:
         "Quadrille", "{} may be a thin solid, of about {} mm: a mesh of its skin is a hollow box, and shell stresses on it are meaningless."
     ).format(part.Label, f"{thickness:.2g}")
     offer = translate("Quadrille", "Make its middle surface")
-    label = QtGui.QLabel(f'{text} <a href="middle">{offer}</a>')
-    label.setObjectName("QuadrilleThinHint")
-    label.setWordWrap(True)
+    label = _Hint(text, offer)
 
     def make(_link: str) -> None:
         try:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..core.arrays import faces_of
 from ..document import groups
-from . import results
+from . import element_types, results
 
 
 class Check(NamedTuple):
@@ -22,7 +22,7 @@ NAMES = ("analysis", "active", "material", "thickness", "pieces", "surfaces")
 
 def checks(mesh, active=None) -> List[Check]:
     """What a shell analysis of a mesh needs, in the order of NAMES. active: the active analysis. What depends on a point that is not
-    met is left out, and so is "surfaces" without a solver of CalculiX."""
+    met is left out, and so is "surfaces" without a solver of CalculiX or without shells."""
     analysis = groups.analysis_of(mesh)
     found = [Check("analysis", analysis is not None)]
     if analysis is not None:
@@ -32,7 +32,7 @@ def checks(mesh, active=None) -> List[Check]:
         found.append(Check("thickness", any(_is_thickness(obj) for obj in members)))
     found.append(Check("pieces", pieces(mesh.FemMesh) <= 1))
     solvers = results.solvers_of(analysis)
-    if solvers:
+    if solvers and element_types.is_shell(mesh):
         found.append(Check("surfaces", all(getattr(solver, results.SURFACE_RESULTS) for solver in solvers)))
     return found
 

@@ -28,6 +28,11 @@ def element_of(mesh) -> str:
     return mesh.Element if "ReducedShells" in mesh.PropertiesList else SHELL
 
 
+def is_shell(mesh) -> bool:
+    """True for a mesh of shell elements, whose stresses differ through the thickness."""
+    return element_of(mesh)[0].upper() == "S"
+
+
 def lies_in_plane(element: str) -> bool:
     """True for elements that solvers take only in the plane z = 0."""
     return element[:3] in ("CPS", "CPE", "CAX")

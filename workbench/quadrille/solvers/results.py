@@ -5,6 +5,8 @@ from typing import Any, List
 
 import FreeCAD
 
+from . import element_types
+
 #: Property of FreeCAD's CalculiX solver objects: results at the shell's surfaces, not only at its middle.
 SURFACE_RESULTS = "BeamShellResultOutput3D"
 
@@ -17,7 +19,9 @@ def solvers_of(analysis) -> List[Any]:
 
 def hint_at_surfaces(result, analysis) -> None:
     """Warns in the report view if a result is for the middle of the shell only. Its stresses are the mean through the
-    thickness, which in bending is almost zero."""
+    thickness, which in bending is almost zero. Other elements than shells have one stress through the thickness."""
+    if not all(map(element_types.is_shell, analysis.Group)):
+        return
     for solver in solvers_of(analysis):
         if not getattr(solver, SURFACE_RESULTS):
             FreeCAD.Console.PrintWarning(
