@@ -133,7 +133,7 @@ SkinFace::SkinFace(const TopoDS_Face& face, int number)
       number_(number),
       area_(area_of(face)),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
-      inverse_(new ShapeAnalysis_Surface(BRep_Tool::Surface(face))),
+      inverse_(std::make_shared<ClosestPoint>(face)),
       inside_(std::make_shared<InsideTest>(face)) {
   BRepBndLib::Add(face, box_, Standard_False);
 }
@@ -148,7 +148,7 @@ std::optional<gp_Dir> SkinFace::outward(const gp_Pnt2d& uv) const {
 }
 
 gp_Pnt2d SkinFace::closest(const gp_Pnt& point) const {
-  return inverse_->ValueOfUV(point, Precision::Confusion());
+  return (*inverse_)(point);
 }
 
 bool SkinFace::holds(const gp_Pnt2d& uv) const {

@@ -4,7 +4,6 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <Bnd_Box.hxx>
-#include <ShapeAnalysis_Surface.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Face.hxx>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "geometry/midsurface/box_tree.hpp"
+#include "geometry/midsurface/closest_point.hpp"
 #include "geometry/midsurface/inside_test.hpp"
 
 namespace quadrille {
@@ -68,7 +68,7 @@ class SkinFace {
   double area_ = 0;
   Bnd_Box box_;
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
-  Handle(ShapeAnalysis_Surface) inverse_;
+  std::shared_ptr<ClosestPoint> inverse_;
   std::shared_ptr<InsideTest> inside_;
 };
 
