@@ -73,37 +73,6 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
   return result;
 }
 
-/// Moves faces back to `between` if only another wall's surface, which hangs over there itself, has cut them
-/// off. An example is the corner of a beam that is flush with a thicker column: the middle of the
-/// column's side continues inside the beam's walls beside their own corner.
-void take_back(Images& images) {
-  constexpr double least_share = 0.5;
-  for (bool changed = true; changed;) {
-    changed = false;
-    const EdgeUses uses(images.between);
-    const auto continues = [&](const JoinedFace& face) {
-      bool own = false, met = false;
-      for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
-        const int edge = uses.find(it.Current());
-        if (edge < 0) continue;
-        const JoinedFace& other = images.between[uses.uses(edge).front().face];
-        const double covered = other.coverage.share * area_of(other.face);
-        met = met || other.wall != face.wall;
-        own = own || (uses.uses(edge).size() == 1 && other.wall == face.wall &&
-                      covered > least_share * (area_of(other.face) + area_of(face.face)));
-      }
-      return own && met;
-    };
-    for (std::size_t i = 0; i < images.hung_over.size(); ++i) {
-      if (!continues(images.hung_over[i])) continue;
-      images.between.push_back(images.hung_over[i]);
-      images.hung_over.erase(images.hung_over.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;
-      break;  // the uses of edges have changed
-    }
-  }
-}
-
 /// Whether the fence of this end joins a step.
 bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
   return end.step && stands_on(walls, end.wall, end.next);
@@ -148,40 +117,45 @@ void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, cons
   faces.insert(faces.end(), strips.begin(), strips.end());
 }
 
-/// Joins a wall that ends in a corner of other walls beside the middle of the next one, as a beam's side does
-/// that is flush with a thicker column. The part of the third wall that hangs over, from one middle to the
-/// other, joins them.
-void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& hung_over,
-                 std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
-  const auto ends_inside = [&](int edge) {
-    const EdgeUses::Use& use = uses.uses(edge).front();
-    const TopoDS_Edge& shape = TopoDS::Edge(uses.edge(edge));
-    if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
-    const BRepAdaptor_Curve curve(shape);
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
-  };
-  std::vector<JoinedFace> bridges;
-  for (const JoinedFace& strip : hung_over) {
-    std::set<int> ended, met;
-    double length = 0;  // total length of the edges to be joined
-    for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const int edge = uses.find(it.Current());
-      if (edge < 0) continue;
-      const bool inside = ends_inside(edge);
-      if (inside) length += length_of(TopoDS::Edge(it.Current()));
-      for (const EdgeUses::Use& use : uses.uses(edge)) (inside ? ended : met).insert(faces[use.face].wall);
+/// Lets walls that end inside the material grow along what hangs over there, up to the next middle surface: a
+/// narrow strip from one to the other. Where a beam is flush with a thicker column, a strip of the column's wall
+/// joins the beam's side; that side itself grows past where it was cut only by a wall that hangs over there too.
+void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, std::vector<JoinedFace> hung_over,
+                    std::vector<JoinedFace>& faces) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    const EdgeUses uses(faces), over(hung_over);
+    const auto ends_inside = [&](int edge) {
+      const EdgeUses::Use& use = uses.uses(edge).front();
+      if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
+      const BRepAdaptor_Curve curve(TopoDS::Edge(uses.edge(edge)));
+      const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+      return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
+    };
+    for (std::size_t i = 0; i < hung_over.size() && !changed; ++i) {
+      JoinedFace strip = hung_over[i];
+      std::set<int> ended, met;
+      double length = 0;  // total length of the edges to be joined
+      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
+        const int edge = uses.find(it.Current());
+        if (edge < 0) continue;
+        const int first = faces[uses.uses(edge).front().face].wall;
+        const bool rim = first == strip.wall && over.uses(over.find(it.Current())).size() < 2;  // at a fence
+        const bool inside = !rim && ends_inside(edge);
+        if (inside) length += length_of(TopoDS::Edge(it.Current()));
+        for (const EdgeUses::Use& use : uses.uses(edge)) (inside ? ended : met).insert(faces[use.face].wall);
+      }
+      if (area_of(strip.face) > walls[strip.wall].thickness * length) continue;
+      for (const int wall : ended) met.erase(wall);
+      if (ended.empty() || met.empty()) continue;
+      const auto thinner = [&](int a, int b) { return walls[a].thickness < walls[b].thickness; };
+      if (ended.count(strip.wall) == 0)
+        strip = step_face(strip.face, std::min(*ended.begin(), *met.begin(), thinner), walls);
+      faces.push_back(strip);
+      hung_over.erase(hung_over.begin() + static_cast<std::ptrdiff_t>(i));
+      changed = true;  // the uses of edges have
     }
-    if (area_of(strip.face) > walls[strip.wall].thickness * length) continue;
-    for (const int wall : ended) met.erase(wall);
-    ended.erase(strip.wall);
-    if (ended.empty() || met.empty()) continue;
-    const int thinner =
-        walls[*ended.begin()].thickness < walls[*met.begin()].thickness ? *ended.begin() : *met.begin();
-    bridges.push_back(step_face(strip.face, thinner, walls));
   }
-  faces.insert(faces.end(), bridges.begin(), bridges.end());
 }
 
 /// The face without those of its edges that are in `edges`. \return null if there are none.
@@ -380,10 +354,9 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
     fused = fuse_pieces(walls, ends, pieces, fuzzy, context, fuse);
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
-  take_back(cut);
   std::vector<JoinedFace> faces = std::move(cut.between);
   add_steps(fuse, walls, ends, faces);
-  add_bridges(skin, walls, cut.hung_over, faces);
+  grow_to_others(skin, walls, std::move(cut.hung_over), faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces, context);
   orient_alike(faces);

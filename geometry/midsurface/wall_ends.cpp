@@ -188,8 +188,8 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-/// The walls that begin close by at several depths, at one place, as where a sheet leaves the one it lies on;
-/// otherwise the first one farther away. Empty if there is none.
+/// The walls that begin close by: at several depths at one place, as where a sheet leaves the one it lies on,
+/// and beside each other; otherwise the first one farther away. Empty if there is none.
 std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                  const FaceEdge& edge) {
   const double t = walls[wall].thickness;
@@ -209,7 +209,6 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
           const NextWall next{other, away * t, depth * t, at};
           if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
             continue;
-          if (!result.empty() && result.front().at != at) continue;  // beside it, not above or below
           result.push_back(next);
           if (away > close_by) return result;
         }
@@ -309,7 +308,9 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   bool step = false;
   double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
-    const double at = edge.first() + share * (edge.last() - edge.first());
+    double at = edge.first() + share * (edge.last() - edge.first());
+    // Behind the middle of the edge there may be another wall, beside this one.
+    if (share == 0.5 && edge.first() < next.at && next.at < edge.last()) at = next.at;
     const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
     const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
@@ -615,10 +616,12 @@ class WallEnds {
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
-    const std::vector<NextWall> nexts = next_walls(skin_, walls_, wall, edge);
-    for (const NextWall& next : nexts) {
+    std::map<double, std::vector<NextWall>> nexts;  // by place
+    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) nexts[next.at].push_back(next);
+    for (const auto& [at, here] : nexts) {
       // Only at a step there may be others above or below the next wall.
-      if (!add(wall, side, edge, next, nexts)) return;
+      for (const NextWall& next : here)
+        if (!add(wall, side, edge, next, here)) break;
     }
   }
 
