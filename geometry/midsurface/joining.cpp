@@ -73,58 +73,44 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
   return result;
 }
 
-/// Whether the fence of this end joins a step.
-bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
-  return end.step && stands_on(walls, end.wall, end.next);
-}
-
 Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
   const double t = walls[wall].thickness;
   const std::vector<int> sides = both_sides(walls[wall]);
   return {1, t, t, t, {sides.begin(), sides.end()}};
 }
 
-/// A face that joins two middle surfaces, with the thickness of one of them.
-JoinedFace step_face(const TopoDS_Face& face, int wall, const std::vector<Wall>& walls) {
-  return {face, wall, true, whole_coverage(wall, walls)};
-}
-
-/// Adds the parts of the fences at steps that lie between the two middle surfaces.
-void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
-               std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
+/// The pieces of fences at steps, as faces that may join the walls there, with the thickness of the thinner one.
+std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls,
+                                        const std::vector<WallEnd>& ends) {
+  std::vector<JoinedFace> result;
   TopTools_MapOfShape taken;
-  const auto touches = [&](const TopoDS_Shape& strip, int wall) {
-    for (int i = 0; i < uses.count(); ++i) {
-      for (const EdgeUses::Use& use : uses.uses(i)) {
-        if (faces[use.face].wall != wall) continue;
-        for (TopExp_Explorer it(strip, TopAbs_EDGE); it.More(); it.Next()) {
-          if (it.Current().IsSame(uses.edge(i))) return true;
-        }
-      }
-    }
-    return false;
-  };
-  std::vector<JoinedFace> strips;
   for (const WallEnd& end : ends) {
-    if (!joins_step(end, walls)) continue;
-    const int thinner = end.next;
+    const int thinner = stands_on(walls, end.wall, end.next) ? end.next : end.wall;
     for (const TopoDS_Shape& image : images(fuse, end.fence)) {
-      if (!touches(image, end.wall) || !touches(image, end.next) || !taken.Add(image)) continue;
-      strips.push_back(step_face(TopoDS::Face(image), thinner, walls));
+      if (end.step && taken.Add(image))
+        result.push_back({TopoDS::Face(image), thinner, true, whole_coverage(thinner, walls)});
     }
   }
-  faces.insert(faces.end(), strips.begin(), strips.end());
+  return result;
 }
 
-/// Lets walls that end inside the material grow along what hangs over there, up to the next middle surface: a
-/// narrow strip from one to the other. Where a beam is flush with a thicker column, a strip of the column's wall
-/// joins the beam's side; that side itself grows past where it was cut only by a wall that hangs over there too.
-void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, std::vector<JoinedFace> hung_over,
+/// What a face that may be added meets.
+struct Contact {
+  std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
+  double length = 0;         ///< of the edges at which they end
+};
+
+/// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
+/// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a strip
+/// of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs over
+/// has cut it. \param strips those that may be added
+void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
                     std::vector<JoinedFace>& faces) {
+  const EdgeUses among(strips);
   for (bool changed = true; changed;) {
     changed = false;
-    const EdgeUses uses(faces), over(hung_over);
+    const EdgeUses uses(faces);
+    TopTools_MapOfShape closed;  // edges at which a strip has just been added
     const auto ends_inside = [&](int edge) {
       const EdgeUses::Use& use = uses.uses(edge).front();
       if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
@@ -132,28 +118,38 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, std::vecto
       const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
       return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
     };
-    for (std::size_t i = 0; i < hung_over.size() && !changed; ++i) {
-      JoinedFace strip = hung_over[i];
-      std::set<int> ended, met;
-      double length = 0;  // total length of the edges to be joined
+    const auto contact_of = [&](const JoinedFace& strip) {
+      Contact result;
       for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
         const int edge = uses.find(it.Current());
+        if (closed.Contains(it.Current())) return Contact();
         if (edge < 0) continue;
-        const int first = faces[uses.uses(edge).front().face].wall;
-        const bool rim = first == strip.wall && over.uses(over.find(it.Current())).size() < 2;  // at a fence
-        const bool inside = !rim && ends_inside(edge);
-        if (inside) length += length_of(TopoDS::Edge(it.Current()));
-        for (const EdgeUses::Use& use : uses.uses(edge)) (inside ? ended : met).insert(faces[use.face].wall);
+        const std::vector<EdgeUses::Use>& around = uses.uses(edge);
+        // Where nothing else has cut a wall off from what hangs over, a fence has: it ends there.
+        const bool own = !strip.step && faces[around.front().face].wall == strip.wall;
+        const bool ended = !(own && among.uses(among.find(it.Current())).size() < 2) && ends_inside(edge);
+        if (ended) result.length += length_of(TopoDS::Edge(it.Current()));
+        for (const EdgeUses::Use& use : around) {
+          result.met.insert(faces[use.face].wall);
+          if (ended) result.ended.insert(faces[use.face].wall);
+        }
       }
-      if (area_of(strip.face) > walls[strip.wall].thickness * length) continue;
-      for (const int wall : ended) met.erase(wall);
-      if (ended.empty() || met.empty()) continue;
-      const auto thinner = [&](int a, int b) { return walls[a].thickness < walls[b].thickness; };
-      if (ended.count(strip.wall) == 0)
-        strip = step_face(strip.face, std::min(*ended.begin(), *met.begin(), thinner), walls);
+      return result;
+    };
+    for (JoinedFace strip : strips) {
+      const Contact contact = contact_of(strip);
+      if (contact.ended.empty() || contact.met.size() < 2) continue;
+      if (area_of(strip.face) > walls[strip.wall].thickness * contact.length) continue;
+      if (!strip.step && contact.ended.count(strip.wall) == 0) {
+        strip.step = true;
+        strip.wall = *std::min_element(contact.met.begin(), contact.met.end(), [&](int a, int b) {
+          return walls[a].thickness < walls[b].thickness;
+        });
+        strip.coverage = whole_coverage(strip.wall, walls);
+      }
       faces.push_back(strip);
-      hung_over.erase(hung_over.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;  // the uses of edges have
+      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
+      changed = true;
     }
   }
 }
@@ -330,7 +326,7 @@ bool fuse_pieces(const std::vector<Wall>& walls, const std::vector<WallEnd>& end
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
   }
   for (const WallEnd& end : ends) {
-    if (joins_step(end, walls)) fuse.AddArgument(end.fence);
+    if (end.step) fuse.AddArgument(end.fence);
   }
   if (fuse.Arguments().Extent() > 1) perform(fuse, context);
   return !fuse.HasErrors();
@@ -355,8 +351,9 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
   std::vector<JoinedFace> faces = std::move(cut.between);
-  add_steps(fuse, walls, ends, faces);
-  grow_to_others(skin, walls, std::move(cut.hung_over), faces);
+  std::vector<JoinedFace> strips = fences_at_steps(fuse, walls, ends);
+  strips.insert(strips.end(), cut.hung_over.begin(), cut.hung_over.end());
+  grow_to_others(skin, walls, strips, faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces, context);
   orient_alike(faces);

@@ -349,6 +349,12 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     }
     return inside;
   };
+  // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge.
+  const auto up_to_corner = [&](double from, double end) {
+    const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
+    const bool corner = left < 1.5 * thickness && is_material(0.5 * from + 0.5 * end);
+    return corner ? end : from;
+  };
   std::vector<FaceEdge> result;
   for (int i = 0; i < count; ++i) {
     if (!begins(at(i))) continue;
@@ -357,7 +363,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
       last = begins(at(k)) ? k : last;
     const double low = i > 0 ? border(at(i), at(i - 1)) : first;
     const double high = last + 1 < count ? border(at(last), at(last + 1)) : first + length;
-    result.push_back(edge.stretch(low, high));
+    result.push_back(edge.stretch(up_to_corner(low, first), up_to_corner(high, first + length)));
     i = last;
   }
   if (result.empty()) result.push_back(edge);  // the wall is narrower than the spacing of samples
