@@ -266,7 +266,9 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
       astray += others.within && !check.runs_across(fan, own) ? 1 : 0;
       for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
     }
-    if (stray || astray > 1) {
+    // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
+    const bool long_enough = length_of(edge) > 0.1 * walls[wall_of.Find(face)].thickness;
+    if ((stray || astray > 1) && long_enough) {
       result.stray_edges.push_back(edge_numbers.FindIndex(edge));
       result.stray_faces.push_back(nearest_faces(skin, fan_at(edge, face, 0.5).point));
     }

@@ -79,17 +79,13 @@ Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
   return {1, t, t, t, {sides.begin(), sides.end()}};
 }
 
-/// The pieces of fences at steps, as faces that may join the walls there, with the thickness of the thinner one.
-std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls,
-                                        const std::vector<WallEnd>& ends) {
+/// The pieces of fences at steps, as faces that may join the walls there.
+std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<WallEnd>& ends) {
   std::vector<JoinedFace> result;
   TopTools_MapOfShape taken;
   for (const WallEnd& end : ends) {
-    const int thinner = stands_on(walls, end.wall, end.next) ? end.next : end.wall;
-    for (const TopoDS_Shape& image : images(fuse, end.fence)) {
-      if (end.step && taken.Add(image))
-        result.push_back({TopoDS::Face(image), thinner, true, whole_coverage(thinner, walls)});
-    }
+    for (const TopoDS_Shape& image : images(fuse, end.fence))
+      if (end.step && taken.Add(image)) result.push_back({TopoDS::Face(image), end.wall, true, {}});
   }
   return result;
 }
@@ -97,6 +93,7 @@ std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::
 /// What a face that may be added meets.
 struct Contact {
   std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
+  int thinnest = -1;         ///< wall among them, rather not of a strip that was added
   double length = 0;         ///< of the edges at which they end
 };
 
@@ -107,7 +104,9 @@ struct Contact {
 void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
                     std::vector<JoinedFace>& faces) {
   const EdgeUses among(strips);
-  for (bool changed = true; changed;) {
+  bool bridges = false;  // first what belongs to a wall that ends, or to a step
+  for (bool changed = true; changed || !bridges;) {
+    bridges = bridges || !changed;
     changed = false;
     const EdgeUses uses(faces);
     TopTools_MapOfShape closed;  // edges at which a strip has just been added
@@ -120,6 +119,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     };
     const auto contact_of = [&](const JoinedFace& strip) {
       Contact result;
+      bool added = true;  // the face whose wall is the thinnest
       for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
         const int edge = uses.find(it.Current());
         if (closed.Contains(it.Current())) return Contact();
@@ -130,8 +130,14 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
         const bool ended = !(own && among.uses(among.find(it.Current())).size() < 2) && ends_inside(edge);
         if (ended) result.length += length_of(TopoDS::Edge(it.Current()));
         for (const EdgeUses::Use& use : around) {
-          result.met.insert(faces[use.face].wall);
-          if (ended) result.ended.insert(faces[use.face].wall);
+          const JoinedFace& face = faces[use.face];
+          result.met.insert(face.wall);
+          if (ended) result.ended.insert(face.wall);
+          if (result.thinnest >= 0 && std::pair(added, walls[result.thinnest].thickness) <=
+                                          std::pair(face.step, walls[face.wall].thickness))
+            continue;
+          result.thinnest = face.wall;
+          added = face.step;
         }
       }
       return result;
@@ -140,13 +146,10 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       const Contact contact = contact_of(strip);
       if (contact.ended.empty() || contact.met.size() < 2) continue;
       if (area_of(strip.face) > walls[strip.wall].thickness * contact.length) continue;
-      if (!strip.step && contact.ended.count(strip.wall) == 0) {
-        strip.step = true;
-        strip.wall = *std::min_element(contact.met.begin(), contact.met.end(), [&](int a, int b) {
-          return walls[a].thickness < walls[b].thickness;
-        });
-        strip.coverage = whole_coverage(strip.wall, walls);
-      }
+      const bool own = !strip.step && contact.ended.count(strip.wall) != 0;
+      if (!bridges && !own && !strip.step) continue;
+      if (!own)
+        strip = {strip.face, contact.thinnest, true, whole_coverage(contact.thinnest, walls)};
       faces.push_back(strip);
       for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
       changed = true;
@@ -196,8 +199,8 @@ void drop_traces(std::vector<JoinedFace>& faces) {
 
 namespace {
 
-/// Merges the faces of one wall across edges that no other wall uses.
-void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
+/// Merges the faces of one wall, or those with its thickness at its steps, across edges that no other uses.
+void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>& walls,
                 const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
                 std::vector<JoinedFace>& merged) {
   TopoDS_Shell shell;
@@ -205,13 +208,13 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
   builder.MakeShell(shell);
   int count = 0;
   for (const JoinedFace& face : all) {
-    if (face.wall != wall || face.step) continue;
+    if (face.wall != wall || face.step != steps) continue;
     builder.Add(shell, face.face);
     ++count;
   }
   const auto keep_all = [&] {
     for (const JoinedFace& face : all) {
-      if (face.wall == wall && !face.step) merged.push_back(face);
+      if (face.wall == wall && face.step == steps) merged.push_back(face);
     }
   };
   if (count < 2) {
@@ -226,11 +229,13 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
     keep_all();
     return;
   }
-  for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
-    const TopoDS_Face& face = TopoDS::Face(it.Current());
+  TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
+  TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
+  for (int i = 1; i <= unified.Extent(); ++i) {
+    const TopoDS_Face& face = TopoDS::Face(unified(i));
     triangulate_middle(face, walls[wall].thickness);
-    merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
-    if (merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
+    merged.push_back({face, wall, steps, coverage_of(face, walls[wall], skin)});
+    if (steps || merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }
 }
 
@@ -246,12 +251,11 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
     if (shared) kept_edges.Add(uses.edge(i));
   }
   std::vector<JoinedFace> result;
-  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    context.check();
-    merge_wall(wall, skin, walls, faces, kept_edges, result);
-  }
-  for (const JoinedFace& face : faces) {
-    if (face.step) result.push_back(face);
+  for (const bool steps : {false, true}) {
+    for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+      context.check();
+      merge_wall(wall, steps, skin, walls, faces, kept_edges, result);
+    }
   }
   return result;
 }
@@ -351,7 +355,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
   std::vector<JoinedFace> faces = std::move(cut.between);
-  std::vector<JoinedFace> strips = fences_at_steps(fuse, walls, ends);
+  std::vector<JoinedFace> strips = fences_at_steps(fuse, ends);
   strips.insert(strips.end(), cut.hung_over.begin(), cut.hung_over.end());
   grow_to_others(skin, walls, strips, faces);
   drop_traces(faces);
