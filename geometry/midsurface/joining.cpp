@@ -131,6 +131,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
         if (ended) result.length += length_of(TopoDS::Edge(it.Current()));
         for (const EdgeUses::Use& use : around) {
           const JoinedFace& face = faces[use.face];
+          if (strip.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
           result.met.insert(face.wall);
           if (ended) result.ended.insert(face.wall);
           if (result.thinnest >= 0 && std::pair(added, walls[result.thinnest].thickness) <=
