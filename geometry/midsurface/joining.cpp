@@ -17,6 +17,8 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -98,9 +100,9 @@ struct Contact {
 };
 
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
-/// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a strip
-/// of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs over
-/// has cut it. \param strips those that may be added
+/// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
+/// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
+/// over has cut it. \param strips those that may be added
 void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
                     std::vector<JoinedFace>& faces) {
   const EdgeUses among(strips);
@@ -149,8 +151,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       if (area_of(strip.face) > walls[strip.wall].thickness * contact.length) continue;
       const bool own = !strip.step && contact.ended.count(strip.wall) != 0;
       if (!bridges && !own && !strip.step) continue;
-      if (!own)
-        strip = {strip.face, contact.thinnest, true, whole_coverage(contact.thinnest, walls)};
+      if (!own) strip = {strip.face, contact.thinnest, true, whole_coverage(contact.thinnest, walls)};
       faces.push_back(strip);
       for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
       changed = true;
@@ -293,36 +294,27 @@ void orient_alike(std::vector<JoinedFace>& faces) {
   }
 }
 
-std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
-  std::vector<int> part(faces.size());
-  for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int i = 0; i < uses.count(); ++i) {
-      int least = part[uses.uses(i).front().face];
-      for (const auto& use : uses.uses(i)) least = std::min(least, part[use.face]);
-      for (const auto& use : uses.uses(i)) {
-        if (part[use.face] == least) continue;
-        part[use.face] = least;
-        changed = true;
-      }
-    }
+  boost::disjoint_sets_with_storage<> together(faces.size());
+  for (int i = 0; i < uses.count(); ++i)
+    for (const EdgeUses::Use& use : uses.uses(i)) together.union_set(uses.uses(i).front().face, use.face);
+  std::map<std::size_t, std::size_t> index;  // of the part, by the face that stands for it
+  std::vector<std::vector<std::size_t>> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto [entry, is_new] = index.try_emplace(together.find_set(i), result.size());
+    if (is_new) result.emplace_back();
+    result[entry->second].push_back(i);
   }
-  std::vector<int> names = part;
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  for (int& p : part) p = static_cast<int>(std::lower_bound(names.begin(), names.end(), p) - names.begin());
-  return part;
+  return result;
 }
 
 namespace {
 
 /// Cuts all pieces, and the fences that join steps, at each other. \param fuzzy distance within which shapes
 /// count as touching. \return whether OpenCASCADE succeeded.
-bool fuse_pieces(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
-                 const std::vector<std::vector<TopoDS_Face>>& pieces, double fuzzy,
-                 const ExecutionContext& context, BOPAlgo_Builder& fuse) {
+bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
+                 double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
   fuse.Clear();
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -352,7 +344,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   bool fused = false;
   // Where surfaces are nearly tangent OpenCASCADE may fail at one tolerance and succeed at the next.
   for (int attempt = 0; attempt < 3 && !fused; ++attempt, fuzzy *= 2)
-    fused = fuse_pieces(walls, ends, pieces, fuzzy, context, fuse);
+    fused = fuse_pieces(ends, pieces, fuzzy, context, fuse);
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
   std::vector<JoinedFace> faces = std::move(cut.between);

@@ -233,6 +233,7 @@ std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, d
 
 Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers) : solid_(solid) {
   TopExp::MapShapes(solid, TopAbs_FACE, map_);
+  TopExp::MapShapesAndAncestors(solid, TopAbs_EDGE, TopAbs_FACE, around_);
   faces_.reserve(map_.Extent());
   for (int i = 1; i <= map_.Extent(); ++i) {
     faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)));

@@ -5,6 +5,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <Bnd_Box.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
@@ -125,6 +126,9 @@ class Skin {
   const std::vector<SkinFace>& faces() const { return faces_; }
   /// Index of a face of the solid; -1 if it is none.
   int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
+  /// The faces around each edge, and around one of them; the same twice at a seam.
+  const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
+  const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }
   double size() const { return size_; }  ///< diagonal of the bounding box
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
@@ -139,6 +143,7 @@ class Skin {
  private:
   TopoDS_Solid solid_;
   TopTools_IndexedMapOfShape map_;
+  TopTools_IndexedDataMapOfShapeListOfShape around_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
   std::vector<RayFace> rays_;     ///< one for each face

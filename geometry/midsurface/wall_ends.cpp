@@ -382,16 +382,14 @@ bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) 
 /// The edges of the skin that separate two surfaces.
 class Borders {
  public:
-  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {
-    TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors_);
-  }
+  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {}
 
   /// The edges of a face that lead to another surface.
   std::vector<FaceEdge> of_face(const SkinFace& face) const {
     std::vector<FaceEdge> result;
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      const TopTools_ListOfShape& around = neighbors_.FindFromKey(edge);
+      const TopTools_ListOfShape& around = skin_.faces_of(edge);
       if (BRep_Tool::Degenerated(edge) || number(around.First()) == number(around.Last())) continue;
       const TopoDS_Shape& other = around.First().IsSame(face.face()) ? around.Last() : around.First();
       result.emplace_back(face, skin_.faces()[skin_.index_of(TopoDS::Face(other))], edge);
@@ -404,7 +402,6 @@ class Borders {
 
   const Skin& skin_;
   const std::vector<int>& surfaces_;
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors_;
 };
 
 /// An edge of a wall's side at one of its vertices.
@@ -794,14 +791,12 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
                                                              const std::vector<Wall>& walls) {
   std::map<int, std::vector<FilletBorder>> result;
   const std::vector<int> wall_of = walls_of_faces(skin, walls);
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); wall >= 0 && it.More(); it.Next()) {
       const TopoDS_Edge& border = TopoDS::Edge(it.Current());
-      for (const TopoDS_Shape& next : neighbors.FindFromKey(border)) {
+      for (const TopoDS_Shape& next : skin.faces_of(border)) {
         const int fillet = skin.index_of(TopoDS::Face(next));
         const SkinFace& beside = skin.faces()[fillet];
         if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border)) continue;

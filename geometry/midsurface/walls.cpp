@@ -134,10 +134,8 @@ using Touching = std::set<std::pair<int, int>>;
 
 /// The pairs of surfaces whose faces have an edge in common.
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
-  TopTools_IndexedDataMapOfShapeListOfShape around;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, around);
   Touching result;
-  for (const TopTools_ListOfShape& faces : around) {
+  for (const TopTools_ListOfShape& faces : skin.faces_of_edges()) {
     const int a = surfaces[skin.index_of(TopoDS::Face(faces.First()))];
     const int b = surfaces[skin.index_of(TopoDS::Face(faces.Last()))];
     result.insert({a, b});

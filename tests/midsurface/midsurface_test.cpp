@@ -883,8 +883,8 @@ TEST(MidSurface, EndsRibsThatAreLowerThanTheirBoss) {
     const auto cylinder = [](double radius, double low, double high) {
       return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(70, 50, low), gp::DZ()), radius, high - low).Shape();
     };
-    const TopoDS_Shape solid = fused({block({0, 0, 0}, 140, 100, 3), cylinder(10, 1, 21),
-                                      block({20, 48.75, 1}, 44, 2.5, height)});
+    const TopoDS_Shape solid =
+        fused({block({0, 0, 0}, 140, 100, 3), cylinder(10, 1, 21), block({20, 48.75, 1}, 44, 2.5, height)});
     expect_one_part(BRepAlgoAPI_Cut(solid, cylinder(7.5, -1, 22)).Shape());
   }
 }
@@ -892,11 +892,10 @@ TEST(MidSurface, EndsRibsThatAreLowerThanTheirBoss) {
 TEST(MidSurface, EndsCapsAtTheRimOfAHat) {
   for (const double thickness : {2.0, 3.0}) {
     const double t = thickness;
-    expect_one_part(fused({block({-50, 0, 0}, 30, t, 200), block({20, 0, 0}, 30, t, 200),
-                           block({-20 - t, 0, 0}, t, 32, 200), block({20, 0, 0}, t, 32, 200),
-                           block({-20 - t, 32 - t, 0}, 40 + 2 * t, t, 200),
-                           block({-20 - t, 0, 0}, 40 + 2 * t, 32, t),
-                           block({-20 - t, 0, 200 - t}, 40 + 2 * t, 32, t)}));
+    expect_one_part(fused(
+        {block({-50, 0, 0}, 30, t, 200), block({20, 0, 0}, 30, t, 200), block({-20 - t, 0, 0}, t, 32, 200),
+         block({20, 0, 0}, t, 32, 200), block({-20 - t, 32 - t, 0}, 40 + 2 * t, t, 200),
+         block({-20 - t, 0, 0}, 40 + 2 * t, 32, t), block({-20 - t, 0, 200 - t}, 40 + 2 * t, 32, t)}));
   }
 }
 
