@@ -10,6 +10,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -106,6 +107,7 @@ struct Contact {
 void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
                     std::vector<JoinedFace>& faces) {
   const EdgeUses among(strips);
+  TopTools_DataMapOfShapeInteger off_skin;  // by edge
   bool bridges = false;  // first what belongs to a wall that ends, or to a step
   for (bool changed = true; changed || !bridges;) {
     bridges = bridges || !changed;
@@ -115,9 +117,12 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     const auto ends_inside = [&](int edge) {
       const EdgeUses::Use& use = uses.uses(edge).front();
       if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
+      if (const int* known = off_skin.Seek(uses.edge(edge))) return *known != 0;
       const BRepAdaptor_Curve curve(TopoDS::Edge(uses.edge(edge)));
       const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-      return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
+      const bool off = skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
+      off_skin.Bind(uses.edge(edge), off ? 1 : 0);
+      return off;
     };
     const auto contact_of = [&](const JoinedFace& strip) {
       Contact result;

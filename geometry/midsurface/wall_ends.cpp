@@ -352,7 +352,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge.
   const auto up_to_corner = [&](double from, double end) {
     const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
-    const bool corner = left < 1.5 * thickness && is_material(0.5 * from + 0.5 * end);
+    const bool corner = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end);
     return corner ? end : from;
   };
   std::vector<FaceEdge> result;

