@@ -905,11 +905,6 @@ TEST(MidSurface, FindsPocketsBesideEachOther) {
   expect_one_part(BRepAlgoAPI_Cut(one, block({60, 15, -2}, 85, 70, 4)).Shape());
 }
 
-TEST(MidSurface, LeadsALipRoundACorner) {
-  expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
-                         block({1, 1, 39}, 99, 1, 9), block({1, 1, 39}, 1, 69, 9)}));
-}
-
 TEST(MidSurface, JoinsALeaningFloorToItsStep) {
   for (const auto& [low, high] : {std::pair(2.6, 3.5), std::pair(1.5, 3.6), std::pair(0.8, 4.0)}) {
     SCOPED_TRACE(high);
