@@ -1,84 +1,60 @@
-/// Splits boxes at the median of their centers, and walks down where the line meets a node.
+/// A bounding volume hierarchy of OpenCASCADE, whose nodes are left out where the line misses them.
 
 #include "geometry/midsurface/box_tree.hpp"
 
+#include <BVH_Tools.hxx>
+#include <BVH_Traverse.hxx>
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace quadrille {
 
 namespace {
 
-bool meets(const AxisBox& box, const gp_Lin& line, double from, double to) {
-  for (int axis = 1; axis <= 3; ++axis) {
-    const double start = line.Location().Coord(axis), along = line.Direction().Coord(axis);
-    const double low = box.low.Coord(axis) - start, high = box.high.Coord(axis) - start;
-    if (std::abs(along) < 1e-12) {  // a face is shorter than 1e12 times the width of its box
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    from = std::max(from, std::min(low / along, high / along));
-    to = std::min(to, std::max(low / along, high / along));
-  }
-  return from <= to;
+BVH_Vec3d vector_of(const gp_XYZ& of) {
+  return BVH_Vec3d(of.X(), of.Y(), of.Z());
 }
+
+/// Collects the boxes that a stretch of a line meets.
+class Met : public BVH_Traverse<double, 3, BVH_BoxSet<double, 3, std::size_t>> {
+ public:
+  Met(const gp_Lin& line, double from, double to)
+      : start_(vector_of(line.Location().XYZ() + from * line.Direction().XYZ())),
+        along_(vector_of((to - from) * line.Direction().XYZ())) {}
+
+  Standard_Boolean RejectNode(const BVH_Vec3d& low, const BVH_Vec3d& high, double& enter) const override {
+    double leave = 0;
+    return !BVH_Tools<double, 3>::RayBoxIntersection(start_, along_, low, high, enter, leave) || enter > 1;
+  }
+  Standard_Boolean Accept(const Standard_Integer index, const double&) override {
+    const BVH_Box<double, 3> box = myBVHSet->Box(index);
+    double enter = 0;
+    if (RejectNode(box.CornerMin(), box.CornerMax(), enter)) return Standard_False;
+    found.push_back(myBVHSet->Element(index));
+    return Standard_True;
+  }
+
+  std::vector<std::size_t> found;
+
+ private:
+  BVH_Vec3d start_, along_;
+};
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<AxisBox> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
-  if (!boxes_.empty()) add(0, boxes_.size());
-}
-
-void BoxTree::add(std::size_t first, std::size_t last) {
-  constexpr std::size_t leaf = 8;
-  const std::size_t index = nodes_.size();
-  Node node{boxes_[order_[first]], first, last};
-  for (std::size_t i = first; i < last; ++i) {
-    const AxisBox& box = boxes_[order_[i]];
-    for (int axis = 1; axis <= 3; ++axis) {
-      node.box.low.SetCoord(axis, std::min(node.box.low.Coord(axis), box.low.Coord(axis)));
-      node.box.high.SetCoord(axis, std::max(node.box.high.Coord(axis), box.high.Coord(axis)));
-    }
+BoxTree::BoxTree(const std::vector<Bnd_Box>& boxes) : boxes_(std::make_shared<Boxes>()) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const gp_Pnt low = boxes[i].CornerMin(), high = boxes[i].CornerMax();
+    boxes_->Add(i, BVH_Box<double, 3>(vector_of(low.XYZ()), vector_of(high.XYZ())));
   }
-  nodes_.push_back(node);
-  if (last - first <= leaf) return;
-  const gp_XYZ size = node.box.high - node.box.low;
-  int longest = 1;
-  for (const int axis : {2, 3}) longest = size.Coord(axis) > size.Coord(longest) ? axis : longest;
-  const std::size_t half = (first + last) / 2;
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  const auto center = [&](std::size_t i) {
-    return boxes_[i].low.Coord(longest) + boxes_[i].high.Coord(longest);
-  };
-  std::nth_element(at(first), at(half), at(last), [&](std::size_t a, std::size_t b) {
-    return std::pair(center(a), a) < std::pair(center(b), b);
-  });
-  add(first, half);
-  nodes_[index].second_half = nodes_.size();
-  add(half, last);
+  boxes_->Build();
 }
 
 std::vector<std::size_t> BoxTree::met(const gp_Lin& line, double from, double to) const {
-  std::vector<std::size_t> result, open;
-  if (!nodes_.empty()) open.push_back(0);
-  while (!open.empty()) {
-    const std::size_t index = open.back();
-    open.pop_back();
-    const Node& node = nodes_[index];
-    if (!meets(node.box, line, from, to)) continue;
-    if (node.second_half > 0) {
-      open.push_back(node.second_half);
-      open.push_back(index + 1);
-      continue;
-    }
-    for (std::size_t i = node.first; i < node.last; ++i)
-      if (meets(boxes_[order_[i]], line, from, to)) result.push_back(order_[i]);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
+  Met met(line, from, to);
+  met.SetBVHSet(boxes_.get());
+  if (boxes_->Size() > 0) met.Select();
+  std::sort(met.found.begin(), met.found.end());
+  return std::move(met.found);
 }
 
 }  // namespace quadrille

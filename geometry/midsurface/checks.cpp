@@ -233,19 +233,15 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
   for (const JoinedFace& face : faces) {
     accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
-  TopTools_IndexedDataMapOfShapeListOfShape around;
-  TopTools_DataMapOfShapeInteger wall_of;
-  for (const JoinedFace& face : faces) {
-    TopExp::MapShapesAndAncestors(face.face, TopAbs_EDGE, TopAbs_FACE, around);
-    wall_of.Bind(face.face, face.wall);
-  }
+  const EdgeUses uses(faces);
   const RimCheck check(skin, walls);
-  for (int i = 1; i <= around.Extent(); ++i) {
+  for (int i = 0; i < uses.count(); ++i) {
     context.check();
-    const TopoDS_Edge& edge = TopoDS::Edge(around.FindKey(i));
-    if (around(i).Extent() > 1 || BRep_Tool::Degenerated(edge)) continue;
-    const TopoDS_Face& face = TopoDS::Face(around(i).First());
-    if (BRep_Tool::IsClosed(edge, face)) continue;  // a seam
+    if (uses.uses(i).size() > 1) continue;  // shared, or a seam
+    const EdgeUses::Use& use = uses.uses(i).front();
+    const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(use.orientation));
+    const TopoDS_Face& face = faces[use.face].face;
+    const int own = faces[use.face].wall;
     ++result.free_edges;
     std::map<int, int> halfway;  // by wall: number of points on its middle
     std::map<int, int> rims;     // by face: number of points on it
@@ -256,7 +252,6 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
       const auto on = skin.faces_at(fan.point, tolerance);
       accounted.insert(on.begin(), on.end());
       for (const int index : on) ++rims[index];
-      const int own = wall_of.Find(face);
       if (!on.empty()) {
         astray += check.closes(fan, own) ? 0 : 1;
         continue;
@@ -266,7 +261,9 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
       astray += others.within && !check.runs_across(fan, own) ? 1 : 0;
       for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
     }
-    if (stray || astray > 1) {
+    // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
+    const bool long_enough = length_of(edge) > 0.1 * walls[own].thickness;
+    if ((stray || astray > 1) && long_enough) {
       result.stray_edges.push_back(edge_numbers.FindIndex(edge));
       result.stray_faces.push_back(nearest_faces(skin, fan_at(edge, face, 0.5).point));
     }
@@ -290,39 +287,36 @@ double common_section(double angle, double first, double second) {
   return (first * second + 0.5 * (first * first + second * second) * std::cos(angle)) / sine;
 }
 
-/// The use of an edge by a middle face.
-struct EdgeUse {
-  const JoinedFace* face;
-  TopoDS_Edge edge;
-};
-
 /// The area of a cross-section through an edge that counts to several of the walls that meet there; 0 for
 /// fewer than three. \param meeting out: the walls
 double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
-                             const std::vector<EdgeUse>& around, std::set<int>& meeting) {
+                             const std::vector<JoinedFace>& faces, const EdgeUses& uses, int edge,
+                             std::set<int>& meeting) {
   std::size_t meet = 0;
-  for (const EdgeUse& use : around) meet += use.edge.Orientation() == TopAbs_INTERNAL ? 2 : 1;
+  for (const EdgeUses::Use& use : uses.uses(edge)) {
+    if (!faces[use.face].step) meet += use.orientation == TopAbs_INTERNAL ? 2 : 1;
+  }
   if (meet < 3) return 0;
   struct Half {
     double angle, thickness;
   };
   std::vector<Half> halves;
   gp_Vec zero;
-  for (const EdgeUse& use : around) {
-    const Fan fan = fan_at(use.edge, use.face->face, 0.5);
+  for (const EdgeUses::Use& use : uses.uses(edge)) {
+    const JoinedFace& face = faces[use.face];
+    if (face.step) continue;
+    const Fan fan = fan_at(TopoDS::Edge(uses.edge(edge).Oriented(use.orientation)), face.face, 0.5);
     if (halves.empty()) zero = fan.away;
-    const Coverage& coverage = use.face->coverage;
-    const double thinnest = coverage.thinnest - coverage.added;
-    const double thickness = std::clamp(thickness_round(walls[use.face->wall], skin, fan.point), thinnest,
-                                        std::max(thinnest, coverage.thickest - coverage.added));
-    meeting.insert(use.face->wall);
+    const Coverage& coverage = face.coverage;
+    const double thickness = thickness_at(coverage, walls[face.wall], skin, fan.point) - coverage.added;
+    meeting.insert(face.wall);
     const auto add = [&](const gp_Vec& away) {
       if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
       const double angle = zero.AngleWithRef(away, fan.along);
       halves.push_back({angle < 0 ? angle + 2 * M_PI : angle, 0.5 * thickness});
     };
     add(fan.away);
-    if (use.edge.Orientation() == TopAbs_INTERNAL) add(fan.away.Reversed());
+    if (use.orientation == TopAbs_INTERNAL) add(fan.away.Reversed());
   }
   if (halves.size() < 3) return 0;
   std::sort(halves.begin(), halves.end(), [](const Half& a, const Half& b) { return a.angle < b.angle; });
@@ -341,34 +335,24 @@ CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
                            const std::vector<JoinedFace>& faces,
                            Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
   CountedTwice result;
-  TopTools_IndexedMapOfShape edges;
-  std::vector<std::vector<EdgeUse>> uses;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const JoinedFace& face = faces[i];
-    if (face.step) {  // it lies across walls that reach up to it
-      result.steps += result.faces[i] = area_of(face.face) * face.coverage.mean;
-      continue;
-    }
-    for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      if (BRep_Tool::Degenerated(edge)) continue;
-      const int index = edges.Add(edge);
-      uses.resize(edges.Extent());
-      uses[index - 1].push_back({&face, edge});
-    }
+  for (std::size_t i = 0; i < faces.size(); ++i) {  // steps lie across walls that reach up to them
+    if (faces[i].step) result.steps += result.faces[i] = area_of(faces[i].face) * faces[i].coverage.mean;
   }
   struct Place {
     double volume = 0;
     std::set<std::size_t> faces{};
   };
   std::map<std::set<int>, Place> places;  // by the walls that meet
-  for (const std::vector<EdgeUse>& around : uses) {
+  const EdgeUses uses(faces);
+  for (int edge = 0; edge < uses.count(); ++edge) {
     std::set<int> meeting;
-    const double section = section_counted_twice(skin, walls, around, meeting);
+    const double section = section_counted_twice(skin, walls, faces, uses, edge, meeting);
     if (section == 0) continue;
     Place& place = places[meeting];
-    place.volume += section * length_of(around.front().edge);
-    for (const EdgeUse& use : around) place.faces.insert(static_cast<std::size_t>(use.face - faces.data()));
+    place.volume += section * length_of(TopoDS::Edge(uses.edge(edge)));
+    for (const EdgeUses::Use& use : uses.uses(edge)) {
+      if (!faces[use.face].step) place.faces.insert(static_cast<std::size_t>(use.face));
+    }
   }
   for (auto& [meeting, place] : places) {
     for (auto& [corner, held] : fillets.beside) {
@@ -409,12 +393,7 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
       const auto up = skin.first_hit(sample.point, gp_Dir(normal));
       const auto down = skin.first_hit(sample.point, gp_Dir(normal.Reversed()));
       if (!up || !down) continue;
-      const Coverage& coverage = faces[i].coverage;
-      const double here =
-          coverage.thickest > coverage.thinnest
-              ? std::clamp(thickness_round(walls[faces[i].wall], skin, sample.point) + coverage.added,
-                           coverage.thinnest, coverage.thickest)
-              : coverage.mean;
+      const double here = thickness_at(faces[i].coverage, walls[faces[i].wall], skin, sample.point);
       told.push_back(here / (up->distance + down->distance));
     }
     if (told.empty()) continue;

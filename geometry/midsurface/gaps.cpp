@@ -43,8 +43,6 @@ namespace quadrille {
 
 namespace {
 
-using Neighbors = TopTools_IndexedDataMapOfShapeListOfShape;
-
 /// A face of one of the solids, by indices.
 struct FaceOf {
   int solid = 0, face = 0;
@@ -93,14 +91,14 @@ struct Beside {
 
 /// At most a dozen points on the longest edges of a face: half way along each edge, and at two more places if
 /// the face is curved.
-std::vector<Beside> beside(const Skin& skin, const Neighbors& neighbors, const SkinFace& face) {
+std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
   for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
     const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
     if (BRep_Tool::Degenerated(edge)) continue;
     const BRepAdaptor_Curve curve(edge);
-    for (const TopoDS_Shape& next : neighbors.FindFromKey(edge)) {
+    for (const TopoDS_Shape& next : skin.faces_of(edge)) {
       if (next.IsSame(face.face())) continue;
       const SkinFace& other = skin.faces()[skin.index_of(TopoDS::Face(next))];
       for (const double place : places) {
@@ -283,8 +281,6 @@ class GapFinder {
     for (const Skin& skin : solids) {
       widths_.emplace_back();
       for (const SkinFace& face : skin.faces()) widths_.back().push_back(width_of(face.face()));
-      neighbors_.emplace_back();
-      TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors_.back());
     }
   }
 
@@ -320,8 +316,7 @@ class GapFinder {
   std::optional<gp_Dir> straight_on(const FaceOf& from, const std::vector<FaceSample>& samples) const {
     const auto outward = face(from).outward(samples.front().uv);
     if (!outward || (!is_flat(face(from)) && goes_on(from))) return std::nullopt;
-    const RunningOn on =
-        running_on(beside(solids_[from.solid], neighbors_[from.solid], face(from)), *outward);
+    const RunningOn on = running_on(beside(solids_[from.solid], face(from)), *outward);
     if (is_flat(face(from))) return on.along;
     const bool ahead = std::all_of(samples.begin(), samples.end(), [&](const FaceSample& sample) {
       const auto normal = face(from).outward(sample.uv);
@@ -350,7 +345,7 @@ class GapFinder {
     const double width = widths_[of.solid][of.face];
     return !samples.empty() &&
            (thickness_at(solids_[of.solid], face(of), width, samples.front().uv) < width ||
-            runs_on_along_normals(beside(solids_[of.solid], neighbors_[of.solid], face(of))));
+            runs_on_along_normals(beside(solids_[of.solid], face(of))));
   }
 
   /// Sweeps a face, starting at a depth inside the material, over a length outward: along a direction, or in
@@ -417,7 +412,7 @@ class GapFinder {
   void for_each_neighbor(const FaceOf& of, const Tell& tell) const {
     const Skin& skin = solids_[of.solid];
     for (TopExp_Explorer it(face(of).face(), TopAbs_EDGE); it.More(); it.Next()) {
-      for (const TopoDS_Shape& beside : neighbors_[of.solid].FindFromKey(it.Current())) {
+      for (const TopoDS_Shape& beside : solids_[of.solid].faces_of(it.Current())) {
         if (!beside.IsSame(face(of).face()))
           tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(TopoDS::Face(beside))].number());
       }
@@ -466,7 +461,6 @@ class GapFinder {
   const std::deque<Skin>& solids_;
   const ExecutionContext& context_;
   std::vector<std::vector<double>> widths_;  ///< for each solid, the widths of its faces
-  std::vector<Neighbors> neighbors_;
 };
 
 /// The narrow gaps, one for each pair of faces, seen from the face of which the larger share faces the other.

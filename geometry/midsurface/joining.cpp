@@ -10,6 +10,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -17,6 +18,8 @@
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -73,115 +76,92 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
   return result;
 }
 
-/// Moves faces back to `between` if only another wall's surface, which hangs over there itself, has cut them
-/// off. An example is the corner of a beam that is flush with a thicker column: the middle of the
-/// column's side continues inside the beam's walls beside their own corner.
-void take_back(Images& images) {
-  constexpr double least_share = 0.5;
-  for (bool changed = true; changed;) {
-    changed = false;
-    const EdgeUses uses(images.between);
-    const auto continues = [&](const JoinedFace& face) {
-      bool own = false, met = false;
-      for (TopExp_Explorer it(face.face, TopAbs_EDGE); it.More(); it.Next()) {
-        const int edge = uses.find(it.Current());
-        if (edge < 0) continue;
-        const JoinedFace& other = images.between[uses.uses(edge).front().face];
-        const double covered = other.coverage.share * area_of(other.face);
-        met = met || other.wall != face.wall;
-        own = own || (uses.uses(edge).size() == 1 && other.wall == face.wall &&
-                      covered > least_share * (area_of(other.face) + area_of(face.face)));
-      }
-      return own && met;
-    };
-    for (std::size_t i = 0; i < images.hung_over.size(); ++i) {
-      if (!continues(images.hung_over[i])) continue;
-      images.between.push_back(images.hung_over[i]);
-      images.hung_over.erase(images.hung_over.begin() + static_cast<std::ptrdiff_t>(i));
-      changed = true;
-      break;  // the uses of edges have changed
-    }
-  }
-}
-
-/// Whether the fence of this end joins a step.
-bool joins_step(const WallEnd& end, const std::vector<Wall>& walls) {
-  return end.step && stands_on(walls, end.wall, end.next);
-}
-
 Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
   const double t = walls[wall].thickness;
   const std::vector<int> sides = both_sides(walls[wall]);
   return {1, t, t, t, {sides.begin(), sides.end()}};
 }
 
-/// A face that joins two middle surfaces, with the thickness of one of them.
-JoinedFace step_face(const TopoDS_Face& face, int wall, const std::vector<Wall>& walls) {
-  return {face, wall, true, whole_coverage(wall, walls)};
+/// The pieces of fences at steps, as faces that may join the walls there.
+std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<WallEnd>& ends) {
+  std::vector<JoinedFace> result;
+  TopTools_MapOfShape taken;
+  for (const WallEnd& end : ends) {
+    for (const TopoDS_Shape& image : images(fuse, end.fence))
+      if (end.step && taken.Add(image)) result.push_back({TopoDS::Face(image), end.wall, true, {}});
+  }
+  return result;
 }
 
-/// Adds the parts of the fences at steps that lie between the two middle surfaces.
-void add_steps(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
-               std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
-  TopTools_MapOfShape taken;
-  const auto touches = [&](const TopoDS_Shape& strip, int wall) {
-    for (int i = 0; i < uses.count(); ++i) {
-      for (const EdgeUses::Use& use : uses.uses(i)) {
-        if (faces[use.face].wall != wall) continue;
-        for (TopExp_Explorer it(strip, TopAbs_EDGE); it.More(); it.Next()) {
-          if (it.Current().IsSame(uses.edge(i))) return true;
+/// What a face that may be added meets.
+struct Contact {
+  std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
+  int thinnest = -1;         ///< wall among them, rather not of a strip that was added
+  double length = 0;         ///< of the edges at which they end
+};
+
+/// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
+/// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
+/// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
+/// over has cut it. \param strips those that may be added
+void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
+                    std::vector<JoinedFace>& faces) {
+  const EdgeUses among(strips);
+  TopTools_DataMapOfShapeInteger off_skin;  // by edge
+  bool bridges = false;  // first what belongs to a wall that ends, or to a step
+  for (bool changed = true; changed || !bridges;) {
+    bridges = bridges || !changed;
+    changed = false;
+    const EdgeUses uses(faces);
+    TopTools_MapOfShape closed;  // edges at which a strip has just been added
+    const auto ends_inside = [&](int edge) {
+      const EdgeUses::Use& use = uses.uses(edge).front();
+      if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
+      if (const int* known = off_skin.Seek(uses.edge(edge))) return *known != 0;
+      const BRepAdaptor_Curve curve(TopoDS::Edge(uses.edge(edge)));
+      const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+      const bool off = skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
+      off_skin.Bind(uses.edge(edge), off ? 1 : 0);
+      return off;
+    };
+    const auto contact_of = [&](const JoinedFace& strip) {
+      Contact result;
+      bool added = true;  // the face whose wall is the thinnest
+      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
+        const int edge = uses.find(it.Current());
+        if (closed.Contains(it.Current())) return Contact();
+        if (edge < 0) continue;
+        const std::vector<EdgeUses::Use>& around = uses.uses(edge);
+        // Where nothing else has cut a wall off from what hangs over, a fence has: it ends there.
+        const bool own = !strip.step && faces[around.front().face].wall == strip.wall;
+        const bool ended = !(own && among.uses(among.find(it.Current())).size() < 2) && ends_inside(edge);
+        if (ended) result.length += length_of(TopoDS::Edge(it.Current()));
+        for (const EdgeUses::Use& use : around) {
+          const JoinedFace& face = faces[use.face];
+          if (strip.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
+          result.met.insert(face.wall);
+          if (ended) result.ended.insert(face.wall);
+          if (result.thinnest >= 0 && std::pair(added, walls[result.thinnest].thickness) <=
+                                          std::pair(face.step, walls[face.wall].thickness))
+            continue;
+          result.thinnest = face.wall;
+          added = face.step;
         }
       }
-    }
-    return false;
-  };
-  std::vector<JoinedFace> strips;
-  for (const WallEnd& end : ends) {
-    if (!joins_step(end, walls)) continue;
-    const int thinner = end.next;
-    for (const TopoDS_Shape& image : images(fuse, end.fence)) {
-      if (!touches(image, end.wall) || !touches(image, end.next) || !taken.Add(image)) continue;
-      strips.push_back(step_face(TopoDS::Face(image), thinner, walls));
+      return result;
+    };
+    for (JoinedFace strip : strips) {
+      const Contact contact = contact_of(strip);
+      if (contact.ended.empty() || contact.met.size() < 2) continue;
+      if (area_of(strip.face) > walls[strip.wall].thickness * contact.length) continue;
+      const bool own = !strip.step && contact.ended.count(strip.wall) != 0;
+      if (!bridges && !own && !strip.step) continue;
+      if (!own) strip = {strip.face, contact.thinnest, true, whole_coverage(contact.thinnest, walls)};
+      faces.push_back(strip);
+      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
+      changed = true;
     }
   }
-  faces.insert(faces.end(), strips.begin(), strips.end());
-}
-
-/// Joins a wall that ends in a corner of other walls beside the middle of the next one, as a beam's side does
-/// that is flush with a thicker column. The part of the third wall that hangs over, from one middle to the
-/// other, joins them.
-void add_bridges(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& hung_over,
-                 std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
-  const auto ends_inside = [&](int edge) {
-    const EdgeUses::Use& use = uses.uses(edge).front();
-    const TopoDS_Edge& shape = TopoDS::Edge(uses.edge(edge));
-    if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
-    const BRepAdaptor_Curve curve(shape);
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    return skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
-  };
-  std::vector<JoinedFace> bridges;
-  for (const JoinedFace& strip : hung_over) {
-    std::set<int> ended, met;
-    double length = 0;  // total length of the edges to be joined
-    for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const int edge = uses.find(it.Current());
-      if (edge < 0) continue;
-      const bool inside = ends_inside(edge);
-      if (inside) length += length_of(TopoDS::Edge(it.Current()));
-      for (const EdgeUses::Use& use : uses.uses(edge)) (inside ? ended : met).insert(faces[use.face].wall);
-    }
-    if (area_of(strip.face) > walls[strip.wall].thickness * length) continue;
-    for (const int wall : ended) met.erase(wall);
-    ended.erase(strip.wall);
-    if (ended.empty() || met.empty()) continue;
-    const int thinner =
-        walls[*ended.begin()].thickness < walls[*met.begin()].thickness ? *ended.begin() : *met.begin();
-    bridges.push_back(step_face(strip.face, thinner, walls));
-  }
-  faces.insert(faces.end(), bridges.begin(), bridges.end());
 }
 
 /// The face without those of its edges that are in `edges`. \return null if there are none.
@@ -226,8 +206,8 @@ void drop_traces(std::vector<JoinedFace>& faces) {
 
 namespace {
 
-/// Merges the faces of one wall across edges that no other wall uses.
-void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
+/// Merges the faces of one wall, or those with its thickness at its steps, across edges that no other uses.
+void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>& walls,
                 const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
                 std::vector<JoinedFace>& merged) {
   TopoDS_Shell shell;
@@ -235,13 +215,13 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
   builder.MakeShell(shell);
   int count = 0;
   for (const JoinedFace& face : all) {
-    if (face.wall != wall || face.step) continue;
+    if (face.wall != wall || face.step != steps) continue;
     builder.Add(shell, face.face);
     ++count;
   }
   const auto keep_all = [&] {
     for (const JoinedFace& face : all) {
-      if (face.wall == wall && !face.step) merged.push_back(face);
+      if (face.wall == wall && face.step == steps) merged.push_back(face);
     }
   };
   if (count < 2) {
@@ -256,11 +236,13 @@ void merge_wall(int wall, const Skin& skin, const std::vector<Wall>& walls,
     keep_all();
     return;
   }
-  for (TopExp_Explorer it(unify.Shape(), TopAbs_FACE); it.More(); it.Next()) {
-    const TopoDS_Face& face = TopoDS::Face(it.Current());
+  TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
+  TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
+  for (int i = 1; i <= unified.Extent(); ++i) {
+    const TopoDS_Face& face = TopoDS::Face(unified(i));
     triangulate_middle(face, walls[wall].thickness);
-    merged.push_back({face, wall, false, coverage_of(face, walls[wall], skin)});
-    if (merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
+    merged.push_back({face, wall, steps, coverage_of(face, walls[wall], skin)});
+    if (steps || merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }
 }
 
@@ -276,12 +258,11 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
     if (shared) kept_edges.Add(uses.edge(i));
   }
   std::vector<JoinedFace> result;
-  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    context.check();
-    merge_wall(wall, skin, walls, faces, kept_edges, result);
-  }
-  for (const JoinedFace& face : faces) {
-    if (face.step) result.push_back(face);
+  for (const bool steps : {false, true}) {
+    for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+      context.check();
+      merge_wall(wall, steps, skin, walls, faces, kept_edges, result);
+    }
   }
   return result;
 }
@@ -318,36 +299,27 @@ void orient_alike(std::vector<JoinedFace>& faces) {
   }
 }
 
-std::vector<int> connected_parts(const std::vector<JoinedFace>& faces) {
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
-  std::vector<int> part(faces.size());
-  for (std::size_t i = 0; i < part.size(); ++i) part[i] = static_cast<int>(i);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int i = 0; i < uses.count(); ++i) {
-      int least = part[uses.uses(i).front().face];
-      for (const auto& use : uses.uses(i)) least = std::min(least, part[use.face]);
-      for (const auto& use : uses.uses(i)) {
-        if (part[use.face] == least) continue;
-        part[use.face] = least;
-        changed = true;
-      }
-    }
+  boost::disjoint_sets_with_storage<> together(faces.size());
+  for (int i = 0; i < uses.count(); ++i)
+    for (const EdgeUses::Use& use : uses.uses(i)) together.union_set(uses.uses(i).front().face, use.face);
+  std::map<std::size_t, std::size_t> index;  // of the part, by the face that stands for it
+  std::vector<std::vector<std::size_t>> result;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const auto [entry, is_new] = index.try_emplace(together.find_set(i), result.size());
+    if (is_new) result.emplace_back();
+    result[entry->second].push_back(i);
   }
-  std::vector<int> names = part;
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  for (int& p : part) p = static_cast<int>(std::lower_bound(names.begin(), names.end(), p) - names.begin());
-  return part;
+  return result;
 }
 
 namespace {
 
 /// Cuts all pieces, and the fences that join steps, at each other. \param fuzzy distance within which shapes
 /// count as touching. \return whether OpenCASCADE succeeded.
-bool fuse_pieces(const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
-                 const std::vector<std::vector<TopoDS_Face>>& pieces, double fuzzy,
-                 const ExecutionContext& context, BOPAlgo_Builder& fuse) {
+bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
+                 double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
   fuse.Clear();
   fuse.SetNonDestructive(Standard_True);
   fuse.SetUseOBB(Standard_True);
@@ -356,7 +328,7 @@ bool fuse_pieces(const std::vector<Wall>& walls, const std::vector<WallEnd>& end
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
   }
   for (const WallEnd& end : ends) {
-    if (joins_step(end, walls)) fuse.AddArgument(end.fence);
+    if (end.step) fuse.AddArgument(end.fence);
   }
   if (fuse.Arguments().Extent() > 1) perform(fuse, context);
   return !fuse.HasErrors();
@@ -377,13 +349,13 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   bool fused = false;
   // Where surfaces are nearly tangent OpenCASCADE may fail at one tolerance and succeed at the next.
   for (int attempt = 0; attempt < 3 && !fused; ++attempt, fuzzy *= 2)
-    fused = fuse_pieces(walls, ends, pieces, fuzzy, context, fuse);
+    fused = fuse_pieces(ends, pieces, fuzzy, context, fuse);
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
-  take_back(cut);
   std::vector<JoinedFace> faces = std::move(cut.between);
-  add_steps(fuse, walls, ends, faces);
-  add_bridges(skin, walls, cut.hung_over, faces);
+  std::vector<JoinedFace> strips = fences_at_steps(fuse, ends);
+  strips.insert(strips.end(), cut.hung_over.begin(), cut.hung_over.end());
+  grow_to_others(skin, walls, strips, faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces, context);
   orient_alike(faces);

@@ -58,7 +58,7 @@ struct Fillets {
 Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                     const ExecutionContext& context, std::vector<JoinedFace>& faces);
 
-/// For each face, the number of the connected part that it belongs to, from 0.
-std::vector<int> connected_parts(const std::vector<JoinedFace>& faces);
+/// The indices of the faces in each connected part.
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces);
 
 }  // namespace quadrille

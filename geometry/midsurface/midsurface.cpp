@@ -13,7 +13,6 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -28,6 +27,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <string_view>
 
@@ -51,6 +51,11 @@ namespace quadrille {
 
 namespace {
 
+template <class T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
 /// The middle surface of one solid.
 struct SolidMiddle {
   std::string name;  ///< of the solid, in sentences
@@ -66,22 +71,9 @@ struct SolidMiddle {
 double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(solid, Standard_True, Standard_False).Shape();
   const BRepMesh_IncrementalMesh triangulated(copy, deflection, Standard_False, 0.4, Standard_False);
-  double six_times = 0;
-  for (TopExp_Explorer it(copy, TopAbs_FACE); it.More(); it.Next()) {
-    TopLoc_Location place;
-    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(it.Current()), place);
-    if (mesh.IsNull()) continue;
-    double face = 0;
-    for (int i = 1; i <= mesh->NbTriangles(); ++i) {
-      std::array<int, 3> nodes{};
-      mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-      std::array<gp_XYZ, 3> corners;
-      for (int j = 0; j < 3; ++j) corners[j] = mesh->Node(nodes[j]).Transformed(place.Transformation()).XYZ();
-      face += corners[0].DotCross(corners[1], corners[2]);
-    }
-    six_times += it.Current().Orientation() == TopAbs_REVERSED ? -face : face;
-  }
-  return std::abs(six_times) / 6;
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(copy, properties, Standard_False, Standard_False, Standard_True);
+  return std::abs(properties.Mass());
 }
 
 /// The volume within about a thousandth. OpenCASCADE's integral with a tolerance is exact for plain faces,
@@ -133,13 +125,12 @@ struct Extent {
   double perimeter = 0;  ///< without holes
 };
 
-/// The extent of the faces whose `part` is `p`.
-Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<int>& part, int p) {
+/// \param part indices of faces
+Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::size_t>& part) {
   TopTools_IndexedMapOfShape rims;
   std::vector<int> uses;
   Extent result;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (part[i] != p) continue;
+  for (const std::size_t i : part) {
     const double area = area_of(faces[i].face);
     result.area += area;
     result.volume += area * faces[i].coverage.mean;
@@ -166,14 +157,10 @@ std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEn
       faces.push_back(middle.faces[i]);
       indices.push_back(i);
     }
-    const std::vector<int> part = connected_parts(faces);
-    const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
-    for (int p = 0; p < parts; ++p) {
-      const Extent extent = extent_of(faces, part, p);
+    for (const std::vector<std::size_t>& part : connected_parts(faces)) {
+      const Extent extent = extent_of(faces, part);
       const bool thick = extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area;
-      for (std::size_t i = 0; i < faces.size(); ++i) {
-        if (part[i] == p && thick) result[indices[i]] = 1;
-      }
+      for (const std::size_t i : part) result[indices[i]] = thick ? 1 : 0;
     }
   }
   return result;
@@ -204,10 +191,11 @@ std::string face_names(const std::vector<int>& numbers) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// The numbers of a solid's faces.
-std::vector<int> numbers_of(const Skin& skin) {
+/// The numbers of some of the skin's faces, ascending. \param faces their indices
+template <class Indices>
+std::vector<int> numbers_of(const Skin& skin, const Indices& faces) {
   std::vector<int> result;
-  for (const SkinFace& face : skin.faces()) result.push_back(face.number());
+  for (const int face : faces) result.push_back(skin.faces()[face].number());
   sort_unique(result);
   return result;
 }
@@ -222,25 +210,13 @@ std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<Wa
   return result;
 }
 
-/// The numbers of the faces on both sides of a wall.
-std::vector<int> side_numbers(const Skin& skin, const Wall& wall) {
-  std::vector<int> result;
-  for (const int face : both_sides(wall)) result.push_back(skin.faces()[face].number());
-  std::sort(result.begin(), result.end());
-  return result;
-}
-
 /// The sentence that names the walls that cannot be joined.
 std::string cannot_join(const std::string& name, const Skin& skin, const std::vector<Wall>& walls,
                         const std::set<int>& blended) {
   std::vector<int> faces;
-  for (const int wall : blended) {
-    const std::vector<int> sides = side_numbers(skin, walls[wall]);
-    faces.insert(faces.end(), sides.begin(), sides.end());
-  }
-  std::sort(faces.begin(), faces.end());
+  for (const int wall : blended) append(faces, both_sides(walls[wall]));
   return fmt::format("{}: {} free-form walls continue into each other, which cannot be joined yet: {}", name,
-                     blended.size(), face_names(faces));
+                     blended.size(), face_names(numbers_of(skin, faces)));
 }
 
 /// If most of the volume of the middle surface is in walls that are not thin, throws an error; with
@@ -249,7 +225,7 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
                 const MidSurfaceOptions& options, SolidMiddle& middle) {
   const std::vector<char> thick = find_thick(middle, ends, options.thickest);
   double all = 0, thick_volume = 0;
-  std::set<int> numbers;
+  std::set<int> faces;
   std::vector<JoinedFace> thin;
   for (std::size_t i = 0; i < thick.size(); ++i) {
     const JoinedFace& face = middle.faces[i];
@@ -260,13 +236,13 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
       continue;
     }
     thick_volume += volume;
-    for (const int index : face.coverage.faces) numbers.insert(skin.faces()[index].number());
+    faces.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
   if (thick_volume <= 0.5 * all && all > 0) return;
   middle.faces = std::move(thin);
   if (middle.faces.empty()) return;
   tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width", name,
-                   face_names({numbers.begin(), numbers.end()}), options.thickest),
+                   face_names(numbers_of(skin, faces)), options.thickest),
        name, options, middle.problems);
 }
 
@@ -279,7 +255,7 @@ void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptio
     const Wall& wall = middle.walls[face.wall];
     if (face.step || wall.off <= most * wall.thickness || !checked.insert(face.wall).second) continue;
     tell(fmt::format("{}: the middle between {} is off by up to {} mm, more than {:g} % of the thickness",
-                     name, face_names(side_numbers(skin, wall)), number_text(wall.off), 100 * most),
+                     name, face_names(numbers_of(skin, both_sides(wall))), number_text(wall.off), 100 * most),
          name, options, middle.problems);
   }
 }
@@ -309,7 +285,7 @@ void make_middle(const Skin& skin, const MidSurfaceOptions& options, const Execu
     } catch (const Standard_Failure&) {  // its text does not help users
       tell(fmt::format("{}: the wall between {} cannot be cut out of its middle surface; heal or simplify "
                        "these faces",
-                       name, face_names(side_numbers(skin, result.walls[wall]))),
+                       name, face_names(numbers_of(skin, both_sides(result.walls[wall])))),
            name, options, result.problems);
     }
   }
@@ -341,14 +317,11 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
   TopoDS_Compound result;
   const BRep_Builder builder;
   builder.MakeCompound(result);
-  const std::vector<int> part = connected_parts(faces);
-  const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
-  for (int p = 0; p < parts; ++p) {
+  for (const std::vector<std::size_t>& part : connected_parts(faces)) {
     TopTools_IndexedDataMapOfShapeListOfShape around;
     TopoDS_Shell shell;
     builder.MakeShell(shell);
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (part[i] != p) continue;
+    for (const std::size_t i : part) {
       builder.Add(shell, faces[i].face);
       TopExp::MapShapesAndAncestors(faces[i].face, TopAbs_EDGE, TopAbs_FACE, around);
     }
@@ -358,9 +331,7 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
       builder.Add(result, shell);
       continue;
     }
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      if (part[i] == p) builder.Add(result, faces[i].face);
-    }
+    for (const std::size_t i : part) builder.Add(result, faces[i].face);
   }
   return result;
 }
@@ -455,33 +426,27 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
 
 /// The parts into which the middle surface of a solid falls, by faces of the solid.
 std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
-  const std::vector<int> part = connected_parts(middle.faces);
-  std::vector<std::vector<int>> faces(1 + *std::max_element(part.begin(), part.end()));
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    for (const int face : middle.faces[i].coverage.faces)
-      faces[part[i]].push_back(skin.faces()[face].number());
-  }
+  const auto all = connected_parts(middle.faces);
   constexpr std::size_t parts_shown = 4;
   std::vector<std::string> parts;
-  for (std::size_t i = 0; i < std::min(parts_shown, faces.size()); ++i) {
-    sort_unique(faces[i]);
-    parts.push_back(face_names(faces[i]));
+  for (std::size_t p = 0; p < std::min(parts_shown, all.size()); ++p) {
+    std::set<int> faces;
+    for (const std::size_t i : all[p])
+      faces.insert(middle.faces[i].coverage.faces.begin(), middle.faces[i].coverage.faces.end());
+    parts.push_back(face_names(numbers_of(skin, faces)));
   }
-  if (faces.size() > parts_shown) parts.push_back(fmt::format("and {} more", faces.size() - parts_shown));
+  if (all.size() > parts_shown) parts.push_back(fmt::format("and {} more", all.size() - parts_shown));
   return fmt::format(
       "{}: the middle surface is in {} separate parts although the solid is in one piece: between {}",
-      middle.name, faces.size(), fmt::join(parts, "; "));
+      middle.name, all.size(), fmt::join(parts, "; "));
 }
 
 /// The sentence for fillets whose material is in no thickness.
 std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
-  std::vector<int> numbers;
-  for (const int fillet : middle.fillets.left_out) numbers.push_back(skin.faces()[fillet].number());
-  sort_unique(numbers);
   return fmt::format(
       "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: walls "
       "that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
-      middle.name, face_names(numbers), 100 * middle.fillets.softer);
+      middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer);
 }
 
 /// The sentence for faces, by numbers of the result, where hollow sections meet.
@@ -521,8 +486,7 @@ MiddleFace description_of(const JoinedFace& joined, const Wall& wall, const Skin
   face.step = joined.step;
   face.fitted = wall.fitted && !joined.step;
   if (face.fitted) face.off = wall.off;
-  for (const int index : joined.coverage.faces) face.solid_faces.push_back(skin.faces()[index].number());
-  sort_unique(face.solid_faces);  // joining cuts faces, whose parts have one number
+  face.solid_faces = numbers_of(skin, joined.coverage.faces);
   return face;
 }
 
@@ -538,8 +502,7 @@ MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin, c
     face.solid = solid;
     checked.shell_volume += face.area * face.thickness;
   }
-  const std::vector<int> part = connected_parts(middle.faces);
-  checked.parts = 1 + *std::max_element(part.begin(), part.end());
+  checked.parts = static_cast<int>(connected_parts(middle.faces).size());
   checked.volume = middle.volume;
   check_rims(skin, middle.walls, middle.faces, numbers.edges, context, checked);
   checked.counted_twice = middle.twice.sum();
@@ -547,11 +510,6 @@ MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin, c
     checked.uneven.push_back(numbers.faces.FindIndex(middle.faces[i].face));
   sort_unique(checked.unpaired);
   return checked;
-}
-
-template <class T>
-void append(std::vector<T>& list, const std::vector<T>& more) {
-  list.insert(list.end(), more.begin(), more.end());
 }
 
 /// Adds the checks of one solid to those of all.
@@ -603,19 +561,16 @@ struct ThicknessSource {
   struct Face {
     const Skin* skin = nullptr;
     Wall wall;
-    double thinnest = 0, thickest = 0, mean = 0;
+    Coverage coverage;
     bool varies = false;
-    double added = 0;  ///< by fillets
   };
   std::shared_ptr<const std::deque<Skin>> skins;
   std::vector<Face> faces;  ///< by face number minus 1
 
   double at(int face, const Vector3& point) const {
     const Face& own = faces.at(face - 1);
-    if (!own.varies) return own.mean;
-    const double t =
-        thickness_round(own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z())) + own.added;
-    return std::clamp(t, own.thinnest, own.thickest);
+    if (!own.varies) return own.coverage.mean;
+    return thickness_at(own.coverage, own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
   }
 };
 
@@ -630,14 +585,8 @@ std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidM
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     for (const JoinedFace& joined : middles[solid].faces) {
       const int index = numbers.FindIndex(joined.face) - 1;
-      const MiddleFace& face = result.faces[index];
-      source->faces[index] = {&(*source->skins)[solid],
-                              middles[solid].walls[joined.wall],
-                              face.thinnest,
-                              face.thickest,
-                              face.thickness,
-                              varies(face),
-                              joined.coverage.added};
+      source->faces[index] = {&(*source->skins)[solid], middles[solid].walls[joined.wall], joined.coverage,
+                              varies(result.faces[index])};
     }
   }
   return source;
@@ -652,10 +601,12 @@ std::vector<SolidMiddle> make_middles(const std::deque<Skin>& skins, const std::
       context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
     };
     told(0);
+    std::vector<int> all_faces(skin.faces().size());
+    std::iota(all_faces.begin(), all_faces.end(), 0);
     SolidMiddle middle;
     middle.name = skins.size() == 1 ? name
                                     : fmt::format("{}: solid {} ({})", name, result.size() + 1,
-                                                  face_names(numbers_of(skin)));
+                                                  face_names(numbers_of(skin, all_faces)));
     if (!attempt(options, "made", middle, [&] { make_middle(skin, options, context, told, middle); }))
       middle.faces.clear();
     result.push_back(std::move(middle));

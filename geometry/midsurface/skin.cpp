@@ -4,12 +4,10 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepBndLib.hxx>
-#include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
-#include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
@@ -20,29 +18,24 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
+
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
 namespace {
 
-struct Triangle {
-  std::array<gp_Pnt, 3> points;  // on the surface
-  std::array<gp_Pnt2d, 3> uv;
-  double area = 0;
-};
-
-std::vector<Triangle> triangles_of(const TopoDS_Face& face) {
+std::vector<SkinTriangle> triangles_of(const TopoDS_Face& face) {
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-  std::vector<Triangle> result;
+  std::vector<SkinTriangle> result;
   if (mesh.IsNull() || !mesh->HasUVNodes()) return result;
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};
     mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
     const gp_Vec ab(mesh->Node(nodes[0]), mesh->Node(nodes[1]));
     const gp_Vec ac(mesh->Node(nodes[0]), mesh->Node(nodes[2]));
-    Triangle triangle;
+    SkinTriangle triangle;
     for (int j = 0; j < 3; ++j) {
       triangle.points[j] = mesh->Node(nodes[j]).Transformed(place.Transformation());
       triangle.uv[j] = mesh->UVNode(nodes[j]);
@@ -60,7 +53,7 @@ gp_Pnt2d blend(const std::array<gp_Pnt2d, 3>& corners, double a, double b) {
 }
 
 /// Adds the centers of the n * n equal parts of a triangle. \param area that they represent together.
-void add_centers(const Triangle& triangle, double area, int n, const BRepAdaptor_Surface& surface,
+void add_centers(const SkinTriangle& triangle, double area, int n, const BRepAdaptor_Surface& surface,
                  std::vector<FaceSample>& samples) {
   const auto add = [&](double a, double b) {
     const gp_Pnt2d uv = blend(triangle.uv, a, b);
@@ -103,22 +96,20 @@ std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
 
 std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
   if (has_many_holes(face)) return grid_samples(face, at_least);
-  const std::vector<Triangle> triangles = triangles_of(face);
+  const std::vector<SkinTriangle> triangles = triangles_of(face);
   double area = 0;
-  for (const Triangle& triangle : triangles) area += triangle.area;
+  for (const SkinTriangle& triangle : triangles) area += triangle.area;
   std::vector<FaceSample> result;
   if (!(area > 0)) return result;
   // OpenCASCADE fills some crescents with triangles that leave the face.
   constexpr double most_off = 0.25;
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
-  if (std::abs(area / std::abs(properties.Mass()) - 1) > most_off) {
+  if (std::abs(area / area_of(face) - 1) > most_off) {
     result = grid_samples(face, at_least);
     if (!result.empty()) return result;
   }
   const BRepAdaptor_Surface surface(face, Standard_False);
   double left_out = 0;  // area of small triangles, which the next one represents
-  for (const Triangle& triangle : triangles) {
+  for (const SkinTriangle& triangle : triangles) {
     left_out += triangle.area;
     if (left_out < 0.5 * area / at_least && &triangle != &triangles.back()) continue;
     const int n = to_int(std::clamp(std::ceil(std::sqrt(at_least * triangle.area / area)), 1.0, 64.0));
@@ -140,12 +131,10 @@ void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
 SkinFace::SkinFace(const TopoDS_Face& face, int number)
     : face_(face),
       number_(number),
+      area_(area_of(face)),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
       inverse_(std::make_shared<ClosestPoint>(face)),
       inside_(std::make_shared<InsideTest>(face)) {
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
-  area_ = std::abs(properties.Mass());
   BRepBndLib::Add(face, box_, Standard_False);
 }
 
@@ -179,31 +168,21 @@ RayFace::RayFace(const SkinFace& face, double near) : face_(face), surface_(face
     plane_ = surface_.Plane();
     return;
   }
-  for (const auto& [points, uv, area] : triangles_of(face.face())) {
-    const gp_Vec ab(points[0], points[1]), ac(points[0], points[2]);
-    triangles_.push_back({points[0], ab, ac, uv});
+  triangles_ = triangles_of(face.face());
+  std::vector<Bnd_Box> boxes(triangles_.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const gp_Pnt& corner : triangles_[i].points) boxes[i].Add(corner);
+    boxes[i].Enlarge(near_);
   }
-  std::vector<AxisBox> boxes;
-  for (const Flat& flat : triangles_) {
-    AxisBox box{flat.corner.XYZ(), flat.corner.XYZ()};
-    for (const gp_Vec& way : {gp_Vec(), flat.ab, flat.ac}) {
-      const gp_Pnt corner = flat.corner.Translated(way);
-      for (int axis = 1; axis <= 3; ++axis) {
-        box.low.SetCoord(axis, std::min(box.low.Coord(axis), corner.Coord(axis) - near_));
-        box.high.SetCoord(axis, std::max(box.high.Coord(axis), corner.Coord(axis) + near_));
-      }
-    }
-    boxes.push_back(box);
-  }
-  boxes_.emplace(std::move(boxes));
+  boxes_.emplace(boxes);
 }
 
-std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
+std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line, double from, double to) const {
   if (plane_) {
     const double slope = line.Direction().Dot(plane_->Axis().Direction());
     if (std::abs(slope) < 1e-9) return {};
-    const gp_Vec to(line.Location(), plane_->Location());
-    const double along = to.Dot(gp_Vec(plane_->Axis().Direction())) / slope;
+    const double along =
+        gp_Vec(line.Location(), plane_->Location()).Dot(gp_Vec(plane_->Axis().Direction())) / slope;
     Hit hit{{}, along};
     double u = 0, v = 0;
     ElSLib::Parameters(*plane_, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
@@ -211,27 +190,27 @@ std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line) const {
     if (!face_.holds(hit.uv)) return {};
     return {hit};
   }
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<Hit> result;
-  for (const std::size_t i : boxes_->met(line, -infinite, infinite)) {
+  for (const std::size_t i : boxes_->met(line, from, to)) {
     if (const auto found = hit(line, triangles_[i])) result.push_back(*found);
   }
   return result;
 }
 
-std::optional<RayFace::Hit> RayFace::hit(const gp_Lin& line, const Flat& flat) const {
-  const gp_Vec along(line.Direction());
+std::optional<RayFace::Hit> RayFace::hit(const gp_Lin& line, const SkinTriangle& flat) const {
+  const gp_Vec along(line.Direction()), ab(flat.points[0], flat.points[1]),
+      ac(flat.points[0], flat.points[2]);
   // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
-  const gp_Vec normal = along.Crossed(flat.ac);
-  const double volume = flat.ab.Dot(normal);
-  if (std::abs(volume) < 1e-12 * flat.ab.Magnitude() * flat.ac.Magnitude()) return std::nullopt;
-  const gp_Vec from(flat.corner, line.Location());
+  const gp_Vec normal = along.Crossed(ac);
+  const double volume = ab.Dot(normal);
+  if (std::abs(volume) < 1e-12 * ab.Magnitude() * ac.Magnitude()) return std::nullopt;
+  const gp_Vec from(flat.points[0], line.Location());
   const double b = from.Dot(normal) / volume;
-  const gp_Vec aside = from.Crossed(flat.ab);
+  const gp_Vec aside = from.Crossed(ab);
   const double c = along.Dot(aside) / volume;
   constexpr double beyond = 1e-9;
   if (b < -beyond || c < -beyond || b + c > 1 + beyond) return std::nullopt;
-  return polished(line, blend(flat.uv, 1 - b - c, b), flat.ac.Dot(aside) / volume);
+  return polished(line, blend(flat.uv, 1 - b - c, b), ac.Dot(aside) / volume);
 }
 
 std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, double along) const {
@@ -254,6 +233,7 @@ std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, d
 
 Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers) : solid_(solid) {
   TopExp::MapShapes(solid, TopAbs_FACE, map_);
+  TopExp::MapShapesAndAncestors(solid, TopAbs_EDGE, TopAbs_FACE, around_);
   faces_.reserve(map_.Extent());
   for (int i = 1; i <= map_.Extent(); ++i) {
     faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)));
@@ -261,12 +241,12 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numb
   Bnd_Box box;
   for (const SkinFace& face : faces_) box.Add(face.box());
   size_ = std::sqrt(box.SquareExtent());
-  std::vector<AxisBox> boxes;
+  std::vector<Bnd_Box> boxes;
   for (const SkinFace& face : faces_) {
     rays_.emplace_back(face, 1e-8 * size_);
-    boxes.push_back({face.box().CornerMin().XYZ(), face.box().CornerMax().XYZ()});
+    boxes.push_back(face.box());
   }
-  boxes_.emplace(std::move(boxes));
+  boxes_.emplace(boxes);
 }
 
 std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
@@ -284,7 +264,7 @@ std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direc
   const gp_Lin line(from, direction);
   Hit best;
   for (const std::size_t face : boxes_->met(line, 1e-6 * size_, size_)) {
-    for (const RayFace::Hit& hit : rays_[face].hits(line)) {
+    for (const RayFace::Hit& hit : rays_[face].hits(line, 0, size_)) {
       if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
       best = {static_cast<int>(face), hit.uv, faces_[face].point(hit.uv), hit.along};
     }
@@ -308,7 +288,7 @@ bool Skin::in_material(const gp_Pnt& point) const {
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
   for (const std::size_t face : boxes_->met(line, -reach, reach)) {
-    for (const RayFace::Hit& hit : rays_[face].hits(line)) {
+    for (const RayFace::Hit& hit : rays_[face].hits(line, -reach, reach)) {
       if (std::abs(hit.along) < reach) return true;
     }
   }

@@ -5,6 +5,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <Bnd_Box.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
@@ -72,6 +73,13 @@ class SkinFace {
   std::shared_ptr<InsideTest> inside_;
 };
 
+/// A triangle of a face.
+struct SkinTriangle {
+  std::array<gp_Pnt, 3> points;  ///< on the surface
+  std::array<gp_Pnt2d, 3> uv;
+  double area = 0;
+};
+
 /// Intersects lines with a face: with its triangles first, then with its exact surface; a plane with many
 /// holes has no triangles. On tori and B-splines this is about a hundred times faster than OpenCASCADE.
 class RayFace {
@@ -83,23 +91,18 @@ class RayFace {
   /// \param face with triangles unless it has many holes; it must outlive this. \param near points closer to
   /// a line than this lie on it.
   RayFace(const SkinFace& face, double near);
-  /// Time: logarithmic in the triangles.
-  std::vector<Hit> hits(const gp_Lin& line) const;
+  /// Hits about between two parameters of the line. Time: logarithmic in the triangles.
+  std::vector<Hit> hits(const gp_Lin& line, double from, double to) const;
 
  private:
-  struct Flat {
-    gp_Pnt corner;
-    gp_Vec ab, ac;  ///< the sides that start at the corner
-    std::array<gp_Pnt2d, 3> uv;
-  };
-  std::optional<Hit> hit(const gp_Lin& line, const Flat& flat) const;
+  std::optional<Hit> hit(const gp_Lin& line, const SkinTriangle& flat) const;
   /// The point of the surface on the line, starting from a guess.
   std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
 
   const SkinFace& face_;
   const BRepAdaptor_Surface& surface_;
   std::optional<gp_Pln> plane_;  ///< of a face with many holes
-  std::vector<Flat> triangles_;
+  std::vector<SkinTriangle> triangles_;
   std::optional<BoxTree> boxes_;  ///< of the triangles
   double near_;
 };
@@ -123,6 +126,9 @@ class Skin {
   const std::vector<SkinFace>& faces() const { return faces_; }
   /// Index of a face of the solid; -1 if it is none.
   int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
+  /// The faces around each edge, and around one of them; the same twice at a seam.
+  const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
+  const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }
   double size() const { return size_; }  ///< diagonal of the bounding box
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
@@ -137,6 +143,7 @@ class Skin {
  private:
   TopoDS_Solid solid_;
   TopTools_IndexedMapOfShape map_;
+  TopTools_IndexedDataMapOfShapeListOfShape around_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
   std::vector<RayFace> rays_;     ///< one for each face

@@ -5,6 +5,7 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepLib.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopTools_ListOfShape.hxx>
@@ -29,9 +30,7 @@ struct Solids {  // NOLINT(bugprone-exception-escape): OpenCASCADE's maps do not
 /// The solid, oriented with the material inside.
 TopoDS_Solid right_way_out(const TopoDS_Shape& shape) {
   TopoDS_Solid solid = TopoDS::Solid(shape);
-  BRepClass3d_SolidClassifier classifier(solid);
-  classifier.PerformInfinitePoint(Precision::Confusion());
-  if (classifier.State() == TopAbs_IN) solid.Reverse();
+  BRepLib::OrientClosedSolid(solid);
   return solid;
 }
 

@@ -5,10 +5,9 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAdaptor_Surface.hxx>
@@ -28,12 +27,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <gp_Ax3.hxx>
 #include <gp_Circ.hxx>
-#include <gp_Cone.hxx>
-#include <gp_Cylinder.hxx>
 #include <gp_Lin.hxx>
-#include <gp_Pln.hxx>
 #include <map>
 #include <optional>
 #include <set>
@@ -45,19 +40,6 @@
 namespace quadrille {
 
 namespace {
-
-class Material {
- public:
-  explicit Material(const Skin& skin) : classifier_(skin.solid()), near_(1e-6 * skin.size()) {}
-  bool holds(const gp_Pnt& point) {
-    classifier_.Perform(point, near_);
-    return classifier_.State() == TopAbs_IN;
-  }
-
- private:
-  BRepClass3d_SolidClassifier classifier_;
-  double near_;
-};
 
 const double nearly_parallel = std::cos(45 * M_PI / 180);
 
@@ -165,50 +147,15 @@ std::optional<gp_Circ> circle_of(const Handle(Geom_Curve) & curve) {
   return circle.IsNull() ? std::nullopt : std::optional(circle->Circ());
 }
 
-/// The cone or cylinder between two arcs around one axis. OpenCASCADE intersects it much faster than the
-/// surface that it makes of two curves itself. Null if the curves are not such arcs.
-TopoDS_Face cone_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const auto first = circle_of(a), second = circle_of(b);
-  if (!first || !second) return {};
-  const gp_Vec up(first->Axis().Direction());
-  const gp_Vec along(first->Location(), second->Location());
-  const double height = along.Dot(up), wider = second->Radius() - first->Radius();
-  const double near = 1e-7 * first->Radius();
-  if (along.Crossed(up).Magnitude() > near || std::abs(height) < 1e-3 * std::abs(wider)) return {};
-  const double low = a->FirstParameter(), high = a->LastParameter(), angle = std::atan(wider / height);
-  const double v = height / std::cos(angle);
-  const gp_Ax3 frame(first->Position());
-  if (std::abs(wider) < near)
-    return BRepBuilderAPI_MakeFace(gp_Cylinder(frame, first->Radius()), low, high, std::min(0.0, height),
-                                   std::max(0.0, height))
-        .Face();
-  return BRepBuilderAPI_MakeFace(gp_Cone(frame, angle, first->Radius()), low, high, std::min(0.0, v),
-                                 std::max(0.0, v))
-      .Face();
-}
-
-/// The plane face between two arcs around one center, as at the end of a bend that continues into a rounded
-/// corner. Null if the curves are not such arcs.
-TopoDS_Face plane_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const auto first = circle_of(a), second = circle_of(b);
-  if (!first || !second) return {};
-  const double near = 1e-7 * first->Radius(), first_end = a->LastParameter();
-  const bool closed = a->Value(a->FirstParameter()).Distance(a->Value(first_end)) < near;
-  if (closed || first->Location().Distance(second->Location()) > near ||
-      !first->Axis().IsParallel(second->Axis(), 1e-7))
-    return {};
-  BRepBuilderAPI_MakeWire border(BRepBuilderAPI_MakeEdge(a).Edge());
-  border.Add(BRepBuilderAPI_MakeEdge(a->Value(first_end), b->Value(b->LastParameter())).Edge());
-  border.Add(BRepBuilderAPI_MakeEdge(b).Edge());
-  border.Add(BRepBuilderAPI_MakeEdge(b->Value(b->FirstParameter()), a->Value(a->FirstParameter())).Edge());
-  BRepBuilderAPI_MakeFace face(gp_Pln(gp_Ax3(first->Position())), border.Wire());
-  return face.IsDone() ? face.Face() : TopoDS_Face();
-}
-
-/// The face between two curves.
+/// The face between two curves. Between arcs around one axis it is a cone, a cylinder or a plane, which
+/// OpenCASCADE intersects much faster than the surface that it makes of two curves itself.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  for (const TopoDS_Face& simple : {cone_between(a, b), plane_between(a, b)}) {
-    if (!simple.IsNull()) return simple;
+  const auto first = circle_of(a), second = circle_of(b);
+  const double near = first ? 1e-7 * first->Radius() : 0;
+  if (first && second && gp_Lin(first->Axis()).Distance(second->Location()) < near) {
+    const double low = a->FirstParameter();
+    const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(a->Value(low), b->Value(b->FirstParameter()));
+    return TopoDS::Face(BRepPrimAPI_MakeRevol(side, first->Axis(), a->LastParameter() - low).Shape());
   }
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
@@ -241,8 +188,8 @@ bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, dou
   return runs_through(wall, skin, beyond, edge.outward(at));
 }
 
-/// The walls that begin close by at several depths, at one place, as where a sheet leaves the one it lies on;
-/// otherwise the first one farther away. Empty if there is none.
+/// The walls that begin close by: at several depths at one place, as where a sheet leaves the one it lies on,
+/// and beside each other; otherwise the first one farther away. Empty if there is none.
 std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                  const FaceEdge& edge) {
   const double t = walls[wall].thickness;
@@ -262,7 +209,6 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
           const NextWall next{other, away * t, depth * t, at};
           if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
             continue;
-          if (!result.empty() && result.front().at != at) continue;  // beside it, not above or below
           result.push_back(next);
           if (away > close_by) return result;
         }
@@ -314,7 +260,7 @@ double thickest_of(const std::vector<Wall>& walls) {
 /// to where their middles intersect, and no fence separates them. Where the thickness changes at the fold,
 /// they intersect between the edges of its two sides, so in neither wall.
 bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
-                    const FaceEdge& edge, Material& material) {
+                    const FaceEdge& edge) {
   const double t = std::min(walls[wall].thickness, walls[next.wall].thickness);
   const gp_Pnt start = edge.curve().Value(next.at);
   const gp_Vec away = edge.away(next.at), down = gp_Vec(edge.outward(next.at)).Reversed();
@@ -349,7 +295,7 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
   const double meet = (other->depth - own->depth) / (own->slope - other->slope);  // distance from the edge
   if (std::abs(meet) < 0.5 * t) return true;
   const gp_Pnt corner = start.Translated(meet * away + (own->depth + own->slope * meet) * down);
-  return planes && std::abs(meet) < 8 * own_thickness && material.holds(corner) &&
+  return planes && std::abs(meet) < 8 * own_thickness && skin.in_material(corner) &&
          !position_in(walls[wall], skin, corner) && !position_in(walls[next.wall], skin, corner);
 }
 
@@ -362,7 +308,9 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   bool step = false;
   double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
-    const double at = edge.first() + share * (edge.last() - edge.first());
+    double at = edge.first() + share * (edge.last() - edge.first());
+    // Behind the middle of the edge there may be another wall, beside this one.
+    if (share == 0.5 && edge.first() < next.at && next.at < edge.last()) at = next.at;
     const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
     const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
@@ -386,13 +334,13 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
 /// across another one, a stretch is only as long as the other bar is wide. What stands on the wall there does
 /// not interrupt a stretch.
 std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const FaceEdge& edge,
-                                      const NextWall& next, double thickness, Material& material) {
+                                      const NextWall& next, double thickness) {
   constexpr int count = 32;
   const double first = edge.first(), length = edge.last() - first;
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
   const auto begins = [&](double t) { return begins_anywhere_behind(skin, wall, edge, t, next, thickness); };
   const auto is_material = [&](double t) {
-    return material.holds(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
+    return skin.in_material(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
   };
   const auto border = [&](double inside, double outside) {
     for (int step = 0; step < 60; ++step) {
@@ -400,6 +348,12 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
       (begins(middle) ? inside : outside) = middle;
     }
     return inside;
+  };
+  // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge.
+  const auto up_to_corner = [&](double from, double end) {
+    const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
+    const bool corner = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end);
+    return corner ? end : from;
   };
   std::vector<FaceEdge> result;
   for (int i = 0; i < count; ++i) {
@@ -409,7 +363,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
       last = begins(at(k)) ? k : last;
     const double low = i > 0 ? border(at(i), at(i - 1)) : first;
     const double high = last + 1 < count ? border(at(last), at(last + 1)) : first + length;
-    result.push_back(edge.stretch(low, high));
+    result.push_back(edge.stretch(up_to_corner(low, first), up_to_corner(high, first + length)));
     i = last;
   }
   if (result.empty()) result.push_back(edge);  // the wall is narrower than the spacing of samples
@@ -428,16 +382,14 @@ bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) 
 /// The edges of the skin that separate two surfaces.
 class Borders {
  public:
-  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {
-    TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors_);
-  }
+  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {}
 
   /// The edges of a face that lead to another surface.
   std::vector<FaceEdge> of_face(const SkinFace& face) const {
     std::vector<FaceEdge> result;
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
       const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      const TopTools_ListOfShape& around = neighbors_.FindFromKey(edge);
+      const TopTools_ListOfShape& around = skin_.faces_of(edge);
       if (BRep_Tool::Degenerated(edge) || number(around.First()) == number(around.Last())) continue;
       const TopoDS_Shape& other = around.First().IsSame(face.face()) ? around.Last() : around.First();
       result.emplace_back(face, skin_.faces()[skin_.index_of(TopoDS::Face(other))], edge);
@@ -450,7 +402,6 @@ class Borders {
 
   const Skin& skin_;
   const std::vector<int>& surfaces_;
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors_;
 };
 
 /// An edge of a wall's side at one of its vertices.
@@ -478,9 +429,9 @@ std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& 
 }
 
 /// Whether the wall's middle continues past the edge inside the material.
-bool runs_on(const FaceEdge& edge, double thickness, Material& material) {
+bool runs_on(const Skin& skin, const FaceEdge& edge, double thickness) {
   const double at = 0.5 * (edge.first() + edge.last());
-  return material.holds(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
+  return skin.in_material(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
 }
 
 /// The ends of a solid's edges, with the directions in which the edges leave them.
@@ -525,7 +476,7 @@ class EdgeEnds {
 class RimEnds {
  public:
   RimEnds(const Skin& skin, const std::vector<Wall>& walls)
-      : skin_(skin), walls_(walls), edges_(skin.solid()), material_(skin) {}
+      : skin_(skin), walls_(walls), edges_(skin.solid()) {}
 
   /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
@@ -534,7 +485,7 @@ class RimEnds {
     std::map<const FaceEdge*, bool> known;
     const auto goes_on = [&](const FaceEdge& edge) {
       const auto [entry, is_new] = known.try_emplace(&edge, false);
-      if (is_new) entry->second = runs_on(edge, t, material_);
+      if (is_new) entry->second = runs_on(skin_, edge, t);
       return entry->second;
     };
     for (const FaceEdge& edge : edges) {
@@ -592,9 +543,9 @@ class RimEnds {
 
   /// Whether the material is wider than the rim anywhere along its continuation. Beside the vertex it need
   /// not be: a fillet or chamfer along a rib ends in the same plane as the rib.
-  bool continues(const gp_Pnt& center, const gp_Vec& away, double length, const gp_Vec& aside) {
+  bool continues(const gp_Pnt& center, const gp_Vec& away, double length, const gp_Vec& aside) const {
     for (const double share : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85})
-      if (material_.holds(center.Translated(share * length * away + aside))) return true;
+      if (skin_.in_material(center.Translated(share * length * away + aside))) return true;
     return false;
   }
 
@@ -616,7 +567,6 @@ class RimEnds {
   const Skin& skin_;
   const std::vector<Wall>& walls_;
   EdgeEnds edges_;
-  Material material_;
 };
 
 /// The shortest vector from a fence to a point.
@@ -663,16 +613,18 @@ bool goes_on_into(const Wall& wall, int next) {
 /// Finds where walls end and others begin.
 class WallEnds {
  public:
-  WallEnds(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls), material_(skin) {}
+  WallEnds(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls) {}
 
   const std::vector<WallEnd>& found() const { return ends_; }
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
-    const std::vector<NextWall> nexts = next_walls(skin_, walls_, wall, edge);
-    for (const NextWall& next : nexts) {
+    std::map<double, std::vector<NextWall>> nexts;  // by place
+    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) nexts[next.at].push_back(next);
+    for (const auto& [at, here] : nexts) {
       // Only at a step there may be others above or below the next wall.
-      if (!add(wall, side, edge, next, nexts)) return;
+      for (const NextWall& next : here)
+        if (!add(wall, side, edge, next, here)) break;
     }
   }
 
@@ -702,8 +654,8 @@ class WallEnds {
     for (const Thinner& thinner : thinner_) {
       if (ends_at_fence(thinner)) continue;
       const Wall& next = walls_[thinner.next.wall];
-      for (const FaceEdge& part : stretches_along(skin_, next, thinner.edge, thinner.next,
-                                                  walls_[thinner.wall].thickness, material_))
+      for (const FaceEdge& part :
+           stretches_along(skin_, next, thinner.edge, thinner.next, walls_[thinner.wall].thickness))
         push(make_end(skin_, walls_, thinner.wall, thinner.next, part, {}), false, between);
     }
   }
@@ -719,7 +671,7 @@ class WallEnds {
     if (goes_on_into(walls_[wall], next.wall)) return false;
     const bool riser = next.away > close_by * t;
     if (riser && !stands_on(walls_, wall, next.wall)) return false;
-    if (meet_in_corner(skin_, walls_, wall, next, edge, material_)) return false;
+    if (meet_in_corner(skin_, walls_, wall, next, edge)) return false;
     if (stands_already(wall, next.wall, side, edge)) return false;
     const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
@@ -727,7 +679,7 @@ class WallEnds {
     if (!end.step) {
       push(end, riser, side);
     } else if (stands_on(walls_, wall, next.wall)) {
-      for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t, material_)) {
+      for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t)) {
         WallEnd stretch = make_end(skin_, walls_, wall, next, part, beside);
         if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
           stretch.riser = skin_.index_of(edge.beside().face());
@@ -794,7 +746,6 @@ class WallEnds {
 
   const Skin& skin_;
   const std::vector<Wall>& walls_;
-  Material material_;
   /// For each wall and the next one, points on its middle at edges with fences.
   std::map<std::pair<int, int>, std::vector<gp_Pnt>> middles_;
   std::vector<WallEnd> ends_;
@@ -840,14 +791,12 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
                                                              const std::vector<Wall>& walls) {
   std::map<int, std::vector<FilletBorder>> result;
   const std::vector<int> wall_of = walls_of_faces(skin, walls);
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
     for (TopExp_Explorer it(face.face(), TopAbs_EDGE); wall >= 0 && it.More(); it.Next()) {
       const TopoDS_Edge& border = TopoDS::Edge(it.Current());
-      for (const TopoDS_Shape& next : neighbors.FindFromKey(border)) {
+      for (const TopoDS_Shape& next : skin.faces_of(border)) {
         const int fillet = skin.index_of(TopoDS::Face(next));
         const SkinFace& beside = skin.faces()[fillet];
         if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border)) continue;

@@ -32,8 +32,6 @@ namespace {
 /// The faces that a wall's middle surface may have to cover: its sides, and adjacent faces that belong to no
 /// wall, such as fillets.
 std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
-  TopTools_IndexedDataMapOfShapeListOfShape neighbors;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, neighbors);
   std::set<int> in_walls, result;
   for (const Wall& other : walls) {
     for (const auto& side : other.sides) in_walls.insert(side.begin(), side.end());
@@ -42,7 +40,7 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
     for (const int face : side) {
       result.insert(face);
       for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-        for (const TopoDS_Shape& neighbor : neighbors.FindFromKey(it.Current())) {
+        for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
           const int index = skin.index_of(TopoDS::Face(neighbor));
           if (in_walls.count(index) == 0) result.insert(index);
         }
@@ -193,6 +191,12 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
     so_far.faces.insert(position->faces.begin(), position->faces.end());
     return position->thickness();
   });
+}
+
+double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point) {
+  if (coverage.thickest <= coverage.thinnest) return coverage.mean;
+  const double t = thickness_round(wall, skin, point) + coverage.added;
+  return std::clamp(t, coverage.thinnest, coverage.thickest);
 }
 
 Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {

@@ -1,7 +1,6 @@
 #pragma once
 /// The middle surface of one wall, trimmed to the material. Internal.
 
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS_Face.hxx>
 #include <map>
 #include <set>
@@ -41,6 +40,9 @@ Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin
 /// How thick the wall would be at a middle face where its sides do not reach, as beside a corner with a
 /// fillet: the distance between their surfaces. \param face with triangles.
 Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
+
+/// The thickness of a middle face at a point, with what fillets add, within the range of its coverage.
+double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point);
 
 /// All ends of all walls. A step has two ends; the fence of only one of them joins the walls.
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,

@@ -9,7 +9,6 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
-#include <gp_Cylinder.hxx>
 #include <map>
 #include <set>
 #include <utility>
@@ -135,10 +134,8 @@ using Touching = std::set<std::pair<int, int>>;
 
 /// The pairs of surfaces whose faces have an edge in common.
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
-  TopTools_IndexedDataMapOfShapeListOfShape around;
-  TopExp::MapShapesAndAncestors(skin.solid(), TopAbs_EDGE, TopAbs_FACE, around);
   Touching result;
-  for (const TopTools_ListOfShape& faces : around) {
+  for (const TopTools_ListOfShape& faces : skin.faces_of_edges()) {
     const int a = surfaces[skin.index_of(TopoDS::Face(faces.First()))];
     const int b = surfaces[skin.index_of(TopoDS::Face(faces.Last()))];
     result.insert({a, b});
@@ -194,34 +191,12 @@ std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pa
   return std::nullopt;
 }
 
-/// The radius of a cylinder, negative if the material is outside; 0 for other faces.
-double bulge(const SkinFace& face) {
-  if (face.surface().GetType() != GeomAbs_Cylinder) return 0;
-  const gp_Cylinder cylinder = face.surface().Cylinder();
-  const FaceSample sample = face.samples(1).front();
-  const gp_Vec from_axis(cylinder.Location(), sample.point);
-  return from_axis.Dot(gp_Vec(*face.outward(sample.uv))) > 0 ? cylinder.Radius() : -cylinder.Radius();
-}
-
 /// Whether the wall has two flat faces, as the corners of flat walls do.
 bool has_two_flats(const Skin& skin, const Wall& wall) {
   const std::vector<int> faces = both_sides(wall);
   return std::count_if(faces.begin(), faces.end(), [&](int index) {
            return skin.faces()[index].surface().GetType() == GeomAbs_Plane;
          }) > 1;
-}
-
-/// Whether an apparent bend is a corner of two flat walls with a fillet inside it: the outside is not
-/// rounded, or has a smaller radius. The middle of such a bend would have a kink.
-bool is_filleted_corner(const Skin& skin, const Wall& wall) {
-  double outer = 0, inner = 0;
-  for (const int index : both_sides(wall)) {
-    const SkinFace& face = skin.faces()[index];
-    const double radius = bulge(face);
-    if (radius > 0) outer = std::max(outer, radius);
-    if (radius < 0) inner = std::max(inner, -radius);
-  }
-  return has_two_flats(skin, wall) && outer < 0.999 * inner;
 }
 
 /// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
@@ -383,7 +358,6 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
   move_chains(skin, surfaces, tolerance, 3 * thickest, context, pairs, walls);
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
     context.check();
-    if (is_filleted_corner(skin, wall)) continue;
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
     if (has_two_flats(skin, wall) && is_bent_too_tightly(skin, wall, middle->surface)) continue;
