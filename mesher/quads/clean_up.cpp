@@ -1,15 +1,12 @@
 /// Topological clean-up of quad meshes.
-/// Based on: Giuliani & Krivodonova, Fast unstructured quadrilateral mesh generation (2018), section 5
-/// (doublet collapse); Kinney, CleanUp: improving quadrilateral finite element meshes
-/// (1997); Bunin, Non-local topological clean-up (2006), for the idea of remeshing small patches inside their
-/// boundary.
+/// Based on: Kinney, CleanUp: improving quadrilateral finite element meshes (1997); Bunin, Non-local
+/// topological clean-up (2006), for the idea of remeshing small patches inside their boundary. Collapsing a
+/// node with two quads, as Giuliani & Krivodonova (2018) do, is one of these refills.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <span>
 
 #include "mesher/quads/cavities.hpp"
@@ -20,8 +17,6 @@ namespace quadrille {
 namespace {
 
 using Quad = QuadTopology::Quad;
-constexpr double pi = std::numbers::pi;
-constexpr int max_patch = 32;  ///< quads in a patch
 /// Scaled Jacobian above which a better connected patch may start: smoothing repairs it.
 constexpr double mendable_patch = 0.05;
 constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
@@ -29,24 +24,6 @@ constexpr double min_gain = 0.5;      ///< a patch is refilled only if it gains 
 constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
 constexpr double resize_cost = 0.2;   ///< cost of each node more or fewer: keeps the density
 constexpr double drift_cost = 50;     ///< cost of each added node, times the share of quads already gained
-
-/// A replacement: the quads to remove and the quads that take their place.
-struct Change {
-  std::array<int, max_patch> old_quads;
-  int old_count = 0;
-  std::array<Quad, max_patch> quads;
-  int count = 0;
-
-  bool add(int quad) {
-    if (std::find(old_quads.begin(), old_quads.begin() + old_count, quad) != old_quads.begin() + old_count)
-      return true;
-    if (old_count == max_patch) return false;
-    old_quads[old_count++] = quad;
-    return true;
-  }
-  std::span<const int> old_span() const { return {old_quads.data(), static_cast<std::size_t>(old_count)}; }
-  std::span<const Quad> new_span() const { return {quads.data(), static_cast<std::size_t>(count)}; }
-};
 
 class CleanUp : private EditedMesh {
  public:
@@ -58,26 +35,12 @@ class CleanUp : private EditedMesh {
     tried_.assign(tried_slots, 0);
   }
 
-  /// Removes interior nodes with two quads; the two quads become one.
-  bool collapse_doublets() {
-    bool any = false;
-    SparseCheck check(context_);
-    for (int node = 0; node < node_count(); ++node) {
-      check();
-      while (removable(node) && topology_.valence(topology_.side_of(node)) == 2 && collapse_doublet(node))
-        any = true;
-    }
-    return any;
-  }
-
   /// Refills small patches around irregular nodes where that improves the valences.
   bool improve_valences();
 
   void write_back();
 
  private:
-  bool collapse_doublet(int node);
-
   double cost_at(int node) const;
   bool improve_round(int node);
 
@@ -105,25 +68,6 @@ class CleanUp : private EditedMesh {
   std::vector<int> queue_;  ///< nodes whose surroundings will be tried
   std::vector<char> queued_;
 };
-
-bool CleanUp::collapse_doublet(int node) {
-  const int side = topology_.side_of(node);
-  const int other = topology_.rotate(side);
-  // The quads (node, a, x, b) and (node, b, y, a) become (a, x, b, y).
-  const Quad& one = topology_.quad(side >> 2);
-  const Quad& two = topology_.quad(other >> 2);
-  const int k = side & 3, j = other & 3;
-  Change change;
-  change.add(side >> 2);
-  change.add(other >> 2);
-  change.quads[change.count++] = {one[(k + 1) & 3], one[(k + 2) & 3], one[(k + 3) & 3], two[(j + 2) & 3]};
-  const std::array<Quad, 2> before{one, two};
-  if (!(worst(change.new_span()) > std::min(worst(before), mendable_patch)) ||
-      !topology_.replace(change.old_span(), change.new_span()))
-    return false;
-  for (const int corner : change.quads[0]) doubtful_[corner] = 1;
-  return true;
-}
 
 double CleanUp::cost_at(int node) const {
   const int side = topology_.side_of(node);
@@ -272,13 +216,10 @@ bool CleanUp::try_patch(const SmallPatch& patch) {
 }
 
 bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
-  Change change;
-  std::array<Quad, SmallPatch::max_quads> old;
-  for (int i = 0; i < patch.count; ++i) {
-    change.add(patch.quads[i]);
-    old[i] = topology_.quad(patch.quads[i]);
-  }
-  const std::span<const Quad> before(old.data(), patch.count);
+  const std::span<const int> old(patch.quads.data(), patch.count);
+  std::array<Quad, SmallPatch::max_quads> replaced, quads;
+  std::transform(old.begin(), old.end(), replaced.begin(), [&](int quad) { return topology_.quad(quad); });
+  const std::span<const Quad> before(replaced.data(), patch.count);
   const double floor = std::min(worst(before), mendable_patch);
   Filling filled = laid(outline, filling);
   if (!(filled.worst() > floor)) return false;
@@ -297,14 +238,11 @@ bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchT
     filled.x[n + i] = point(node);
   }
   doubtful_.resize(mesh_.mesh.points.size(), 0);
-  for (int k = 0; k < filling.quads; ++k) {
-    const auto& c = filling.corners[k];
-    for (int j = 0; j < 4; ++j) change.quads[change.count][j] = filled.nodes[c[j]];
-    ++change.count;
-  }
-  if (filled.worst() > floor && !too_long(before, change.new_span()) &&
-      topology_.replace(change.old_span(), change.new_span())) {
-    drift_ += change.count - change.old_count;
+  for (int k = 0; k < filling.quads; ++k)
+    for (int j = 0; j < 4; ++j) quads[k][j] = filled.nodes[filling.corners[k][j]];
+  const std::span<const Quad> after(quads.data(), filling.quads);
+  if (filled.worst() > floor && !too_long(before, after) && topology_.replace(old, after)) {
+    drift_ += filling.quads - patch.count;
     for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
     return true;
   }
@@ -326,12 +264,10 @@ void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Impro
   ImproveOptions relaxing = options;
   relaxing.smoothing_sweeps = 2;
   std::vector<char> doubtful;
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 2; ++round) {
     context.check();
     CleanUp work(surface_mesh, surface, doubtful, context);
-    bool any = work.collapse_doublets();
-    any |= work.improve_valences();
-    any |= work.collapse_doublets();
+    const bool any = work.improve_valences();
     work.write_back();
     if (!any) break;
     smooth(surface_mesh, surface, relaxing, context);

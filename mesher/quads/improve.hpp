@@ -52,7 +52,7 @@ struct SurfaceMesh {
   }
 };
 
-/// Topological clean-up: collapses doublets and refills small patches, then large ones, where that lowers the
+/// Topological clean-up: refills small patches, then large ones, where that lowers the
 /// valence deviation. Boundary nodes and sides stay. Unused points are removed and the arrays renumbered,
 /// with the fixed points first in their old order. The desired valence is 4 for an interior node, and one
 /// quad per 90 degrees of the boundary angle for a boundary node.

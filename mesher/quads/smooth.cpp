@@ -2,8 +2,8 @@
 /// Based on: Field, Laplacian smoothing and Delaunay triangulations (1988), made "smart" by the acceptance
 /// test of Freitag, On combining Laplacian and optimization-based mesh smoothing techniques (1997): sweeps of
 /// averages first, then the worst elements node by node, by a compass search on the least scaled Jacobian
-/// around the node. Untangling maximizes the negative part of the corner areas, as in Freitag & Plassmann
-/// (2000).
+/// around the node. Folded quads are opened in the same way, by the negative part of their corner areas, as
+/// in Freitag & Plassmann (2000).
 
 #include <algorithm>
 #include <array>
@@ -338,145 +338,6 @@ bool search(SmoothedMesh& m, int node) {
   return settle(m, node, origin + best_x * u + best_y * v, goal, size);
 }
 
-/// Where in [-reach, reach] a concave function is largest.
-template <class Function>
-double golden_section(double reach, Function&& function) {
-  constexpr double golden_ratio = 0.61803398874989485;
-  double low = -reach, high = reach;
-  double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
-  double at_a = function(a), at_b = function(b);
-  for (int i = 0; i < 32; ++i) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - golden_ratio * (high - low);
-      at_a = function(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + golden_ratio * (high - low);
-      at_b = function(b);
-    }
-  }
-  return 0.5 * (low + high);
-}
-
-/// The corner areas are linear in the node's place, so the least of them is concave. Nested golden-section
-/// searches find where it is largest.
-bool spread_corners(SmoothedMesh& m, int node) {
-  struct Area {
-    double x, y, constant;
-    double at(double px, double py) const { return constant + x * px + y * py; }
-  };
-  const Vector3& origin = m.points[node];
-  const Vector3& normal = m.normals[node];
-  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  std::vector<Area> areas;
-  // The corner at b between a and c, one of which is the node: constant + gradient times the node's move.
-  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
-    const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
-    areas.push_back(
-        {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
-  };
-  for (const Side corner : m.corners[node]) {
-    const auto& q = m.quads[element_of(corner)];
-    const int j = index_of(corner);
-    const Vector3 &b = m.points[q[(j + 1) & 3]], &c = m.points[q[(j + 2) & 3]], &d = m.points[q[(j + 3) & 3]];
-    add(d, origin, b, normal.cross(b - d));
-    add(origin, b, c, normal.cross(c - b));
-    add(c, d, origin, normal.cross(d - c));
-  }
-  const auto least = [&](double x, double y) {
-    double value = std::numeric_limits<double>::max();
-    for (const Area& area : areas) value = std::min(value, area.at(x, y));
-    return value;
-  };
-  const double reach = 1.5 * m.mean_side(node);
-  const auto best_y = [&](double x) { return golden_section(reach, [&](double y) { return least(x, y); }); };
-  const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
-  const SurfacePlace place = m.moved(node, origin + x * u + best_y(x) * v);
-  if (!place.point.allFinite() || !(m.least_at(node, place.point, place.normal) > m.least_round(node)))
-    return false;
-  m.put(node, place);
-  return true;
-}
-
-/// Whether three fixed nodes in a row make the quad as bad as it is.
-bool pinned(const SmoothedMesh& m, int quad) {
-  const auto& q = m.quads[quad];
-  const Vector3& normal = m.normals[q[0]];
-  for (int k = 0; k < 4; ++k) {
-    if (m.free[q[k]] || m.free[q[(k + 1) & 3]] || m.free[q[(k + 3) & 3]]) continue;
-    const Vector3 a = m.points[q[(k + 1) & 3]] - m.points[q[k]],
-                  b = m.points[q[(k + 3) & 3]] - m.points[q[k]];
-    if (a.cross(b).dot(normal) <= 1.05 * m.quality[quad] * a.norm() * b.norm()) return true;
-  }
-  return false;
-}
-
-/// \param left nodes that may still be worked on, in this call and later ones
-bool loosen(SmoothedMesh& m, int quad, std::size_t& left) {
-  std::vector<int> nodes(m.quads[quad].begin(), m.quads[quad].end());
-  constexpr int rings = 3;
-  for (int ring = 0; ring < rings; ++ring) {
-    const std::size_t count = nodes.size();
-    for (std::size_t i = 0; i < count; ++i)
-      for (const Side corner : m.corners[nodes[i]])
-        for (const int other : m.quads[element_of(corner)]) nodes.push_back(other);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
-  std::erase_if(nodes, [&](int node) { return !m.free[node]; });
-  left -= std::min(left, nodes.size());
-  const auto least = [&] {
-    double result = 1;
-    for (const int node : nodes) result = std::min(result, m.least_round(node));
-    return result;
-  };
-  const double before = least();
-  std::vector<SurfacePlace> saved;
-  saved.reserve(nodes.size());
-  for (const int node : nodes) saved.push_back(m.nodes.place_of(node));
-  constexpr int averages = 12, mends = 6;
-  for (int i = 0; i < averages; ++i)
-    for (const int node : nodes) m.points[node] = m.middle_of(node);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const SurfacePlace place = m.moved(nodes[i], m.points[nodes[i]]);
-    m.nodes.put(nodes[i], place.point.allFinite() ? place : saved[i]);
-  }
-  for (const int node : nodes) m.measure_round(node);
-  for (int i = 0; i < mends; ++i)
-    for (const int node : nodes)
-      if (m.least_round(node) < bad_jacobian) search(m, node);
-  if (least() > before) return true;
-  for (std::size_t i = 0; i < nodes.size(); ++i) m.nodes.put(nodes[i], saved[i]);
-  for (const int node : nodes) m.measure_round(node);
-  return false;
-}
-
-/// Helps elements below `floor` that moves of single nodes cannot help (rows of flat quads against a wall).
-/// Averages all nodes near the element without regard to shapes, then repairs them. Keeps the result only
-/// if the worst element there is better than before. \param most_failures gives up after this many failures
-/// in a row: the face is then too narrow for its size.
-bool loosen_below(SmoothedMesh& m, double floor, int most_failures) {
-  bool any = false;
-  int failures = 0;
-  // Such places are few. If a whole face is folded, work on single elements cannot repair it.
-  constexpr std::size_t nodes_each = 4, nodes_at_least = 2000;
-  std::size_t left = nodes_each * m.points.size() + nodes_at_least;
-  for (int quad = 0; quad < static_cast<int>(m.quads.size()) && failures < most_failures; ++quad) {
-    if (!(m.quality[quad] < floor) || pinned(m, quad)) continue;
-    m.context.check();
-    const bool better = loosen(m, quad, left);
-    if (left == 0) break;
-    failures = better ? 0 : failures + 1;
-    any |= better;
-  }
-  return any;
-}
-
 /// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.
 bool optimize_below(double floor, SmoothedMesh& m, Sweeps& sweeps) {
   return m.visit_free([&](int node) {
@@ -484,13 +345,6 @@ bool optimize_below(double floor, SmoothedMesh& m, Sweeps& sweeps) {
     sweeps.wake_around(node);
     return true;
   });
-}
-
-/// Moves each node of an inverted element to where the least of its corner areas, each divided by the
-/// lengths of its sides, is largest. The search is exact, so that it finds the thin wedges at cusps too.
-/// Returns whether a node moved.
-bool untangle(SmoothedMesh& m) {
-  return m.visit_free([&](int node) { return !(m.least_round(node) > 0) && spread_corners(m, node); });
 }
 
 }  // namespace
@@ -511,11 +365,7 @@ void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Improve
     for (int k = 0; k < 3 && sweeps.sweep(); ++k) continue;
     mesh.measure_all();
   }
-  constexpr double half_pi = 1.57079632679489662, q_floor = 0.25;
-  constexpr int most_failures = 4;
-  if (loosen_below(mesh, std::sin(half_pi * q_floor), most_failures)) optimize(2, bad_jacobian);
   optimize(2, poor_jacobian);
-  for (int i = 0; i < 10 && untangle(mesh); ++i) continue;
 }
 
 }  // namespace quadrille
