@@ -3,6 +3,8 @@
 
 #include "mesher/quads/patch_templates.hpp"
 
+#include <boost/container/static_vector.hpp>
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -11,13 +13,18 @@
 namespace quadrille {
 namespace {
 
-using Ring = std::vector<int>;
+/// No part has more nodes than the polygon and those inside.
+using Ring =
+    boost::container::static_vector<std::int8_t, PatchTemplate::max_sides + PatchTemplate::max_interior>;
 
 /// A part still to be filled, and the number of nodes to put into it.
 struct Region {
   Ring ring;
   int inside;
 };
+/// Each quad leaves up to three parts in place of one.
+using Regions = boost::container::static_vector<Region, 2 * PatchTemplate::max_quads + 1>;
+using Parts = boost::container::static_vector<Ring, 3>;
 
 class Enumeration {
  public:
@@ -32,7 +39,7 @@ class Enumeration {
   std::vector<PatchTemplate> take() { return std::move(found_); }
 
  private:
-  void fill(std::vector<Region> regions) {
+  void fill(Regions regions) {
     if (regions.empty()) return record();
     const Region region = regions.back();
     regions.pop_back();
@@ -53,13 +60,13 @@ class Enumeration {
     }
   }
 
-  void place(const std::vector<Region>& regions, const Region& region, int i, int j, int inside) {
+  void place(const Regions& regions, const Region& region, int i, int j, int inside) {
     const Ring& ring = region.ring;
     const int n = static_cast<int>(ring.size());
     const int mark = next_node_;
     const int c = i < 0 ? next_node_++ : ring[i];
     const int d = j < 0 ? next_node_++ : ring[j];
-    std::vector<Ring> parts;
+    Parts parts;
     const auto arc = [&](int from, int to) {
       Ring part;
       for (int k = from; k <= to; ++k) part.push_back(ring[k % n]);
@@ -89,7 +96,7 @@ class Enumeration {
   }
 
   /// Distributes the nodes that are still to be placed among the parts, in every way.
-  void share(std::vector<Region> regions, const std::vector<Ring>& parts, std::size_t part, int inside) {
+  void share(Regions regions, const Parts& parts, std::size_t part, int inside) {
     // Between two nodes there is only their side.
     const int most = parts[part].size() == 2 ? 0 : inside;
     if (part + 1 == parts.size()) {
@@ -98,7 +105,7 @@ class Enumeration {
       return fill(std::move(regions));
     }
     for (int here = 0; here <= most; ++here) {
-      std::vector<Region> more = regions;
+      Regions more = regions;
       more.push_back({parts[part], here});
       share(std::move(more), parts, part + 1, inside - here);
     }
