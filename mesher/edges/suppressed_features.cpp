@@ -256,6 +256,9 @@ bool SuppressedFeatures::keep_harmed() {
   return any;
 }
 
+/// An edge below this share of the reach moves nothing by so much that a face fails because of it.
+constexpr double too_small_to_matter = 0.01;
+
 bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edges,
                                      const TinyFeatures& tiny) {
   const std::string why = fmt::format("Face{} has no valid mesh without it", face.number());
@@ -277,6 +280,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
   }
   for (const EdgeId edge : edges_.ids()) {
     if (!edges_[edge] || !here.contains(tiny.end(shape_.edges[edge].first_vertex))) continue;
+    if (shape_.edges[edge].length < too_small_to_matter * reach_) continue;
     edges_[edge] = 0;
     kept_edges_.try_emplace(edge, why);
     any = true;
