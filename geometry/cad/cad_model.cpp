@@ -12,10 +12,10 @@
 #include <Standard_Failure.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <algorithm>
+#include <boost/interprocess/streams/bufferstream.hpp>
 #include <fstream>
 #include <istream>
 #include <sstream>
-#include <streambuf>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -33,26 +33,6 @@
 namespace quadrille {
 
 namespace {
-
-/// A string as an input stream without a copy.
-class ViewBuffer : public std::streambuf {
- public:
-  explicit ViewBuffer(std::string_view text) {
-    char* begin = const_cast<char*>(text.data());  // setg asks for char*, reading only
-    setg(begin, begin, begin + text.size());
-  }
-
- protected:
-  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
-    char* base = from == std::ios_base::beg ? eback() : from == std::ios_base::cur ? gptr() : egptr();
-    if (base + offset < eback() || base + offset > egptr()) return pos_type(off_type(-1));
-    setg(eback(), base + offset, egptr());
-    return gptr() - eback();
-  }
-  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
-    return seekoff(off_type(position), std::ios_base::beg, mode);
-  }
-};
 
 /// Without this, OpenCASCADE prints its transfer log to standard output.
 void silence_opencascade() {
@@ -171,22 +151,18 @@ CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& op
   const std::string name = path.string();
   require_readable(path);
   const std::string extension = lower_ending(path);
-  const IsolatedTask task{"cad", {std::filesystem::absolute(path).string()}};
+  const auto read_by = [&](const auto& reader) {
+    return guarded(name, options, reader, {"cad", {std::filesystem::absolute(path).string()}});
+  };
   if (extension == ".step" || extension == ".stp")
-    return guarded(
-        name, options, [&] { return read_exchange(path, "quadrille_step"); }, task);
+    return read_by([&] { return read_exchange(path, "quadrille_step"); });
   if (extension == ".iges" || extension == ".igs")
-    return guarded(
-        name, options, [&] { return read_exchange(path, "quadrille_iges"); }, task);
-  if (extension == ".brep" || extension == ".brp") {
-    return guarded(
-        name, options,
-        [&] {
-          std::ifstream stream(path, std::ios::binary);
-          return read_brep(stream, name);
-        },
-        task);
-  }
+    return read_by([&] { return read_exchange(path, "quadrille_iges"); });
+  if (extension == ".brep" || extension == ".brp")
+    return read_by([&] {
+      std::ifstream stream(path, std::ios::binary);
+      return read_brep(stream, name);
+    });
   throw usage_error(name,
                     fmt::format("{} has an unknown ending: STEP (.step, .stp), IGES (.iges, .igs) and BREP "
                                 "(.brep, .brp) can be read",
@@ -195,8 +171,7 @@ CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& op
 
 CadModel CadModel::from_brep(std::string_view text, const std::string& name, const ReadOptions& options) {
   return guarded(name, options, [&] {
-    ViewBuffer buffer(text);
-    std::istream stream(&buffer);
+    boost::interprocess::ibufferstream stream(text.data(), text.size());
     return read_brep(stream, name);
   });
 }

@@ -29,7 +29,9 @@ CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
     : name(std::move(shape_name)), shape(with_all_curves(source, problems)) {
   read_topology();
   trust_curve_ends(*this);
-  measure();
+  const BoundingBox box = bounding_box(*this);
+  box_min = box.low;
+  box_max = box.high;
 }
 
 void CadShape::read_topology() {
@@ -203,12 +205,6 @@ void CadShape::read_face(FaceId id, const TopoDS_Face& source, const TopTools_In
     }
     if (!wire.coedges.empty()) face.wires.push_back(std::move(wire));
   }
-}
-
-void CadShape::measure() {
-  const BoundingBox box = bounding_box(*this);
-  box_min = box.low;
-  box_max = box.high;
 }
 
 }  // namespace quadrille

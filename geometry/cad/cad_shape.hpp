@@ -111,7 +111,6 @@ class CadShape {
   void measure_edges();
   void read_face(FaceId id, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
                  const TopTools_IndexedMapOfShape& vertex_map);
-  void measure();
 };
 
 }  // namespace quadrille

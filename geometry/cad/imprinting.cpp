@@ -4,6 +4,7 @@
 #include "geometry/cad/imprinting.hpp"
 
 #include <BOPAlgo_Builder.hxx>
+#include <BOPTools_AlgoTools.hxx>
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepTools_Modifier.hxx>
@@ -15,12 +16,10 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeShape.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
-#include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -34,45 +33,19 @@ namespace quadrille {
 
 namespace {
 
-/// The pieces of a shell that share no edges; the shell itself if it is in one piece. OpenCASCADE looks for
-/// contacts between arguments only, and files put plates that cross into one shell.
-std::vector<TopoDS_Shape> pieces_of(const TopoDS_Shape& shell) {
-  TopTools_IndexedMapOfShape faces;
-  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
-  TopExp::MapShapes(shell, TopAbs_FACE, faces);
-  TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
-  std::vector<char> met(faces.Extent() + 1, 0);
-  std::vector<TopoDS_Shape> pieces;
-  const BRep_Builder builder;
-  for (int seed = 1; seed <= faces.Extent(); ++seed) {
-    if (met[seed]) continue;
-    TopoDS_Shell piece;
-    builder.MakeShell(piece);
-    std::vector<int> work{seed};
-    met[seed] = 1;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      const TopoDS_Shape& face = faces(work[i]);
-      builder.Add(piece, face);
-      for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
-        for (const TopoDS_Shape& neighbor : faces_of.FindFromKey(edge.Current())) {
-          const int number = faces.FindIndex(neighbor);
-          if (met[number]) continue;
-          met[number] = 1;
-          work.push_back(number);
-        }
-    }
-    if (static_cast<int>(work.size()) == faces.Extent()) return {shell};
-    pieces.push_back(work.size() > 1 ? TopoDS_Shape(piece) : faces(seed));
-  }
-  return pieces;
-}
-
-/// The solids, the connected faces outside solids, and single faces, in the order of the shape.
+/// The solids, the connected faces outside solids, and single faces, in the order of the shape. OpenCASCADE
+/// looks for contacts between arguments only, and files put plates that cross into one shell.
 std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
   TopTools_IndexedMapOfShape parts;
   for (TopExp_Explorer part(shape, TopAbs_SOLID); part.More(); part.Next()) parts.Add(part.Current());
-  for (TopExp_Explorer part(shape, TopAbs_SHELL, TopAbs_SOLID); part.More(); part.Next())
-    for (const TopoDS_Shape& piece : pieces_of(part.Current())) parts.Add(piece);
+  for (TopExp_Explorer part(shape, TopAbs_SHELL, TopAbs_SOLID); part.More(); part.Next()) {
+    TopTools_ListOfShape pieces;
+    BOPTools_AlgoTools::MakeConnexityBlocks(part.Current(), TopAbs_EDGE, TopAbs_FACE, pieces);
+    if (pieces.Size() < 2)
+      parts.Add(part.Current());
+    else
+      for (const TopoDS_Shape& piece : pieces) parts.Add(piece);
+  }
   for (TopExp_Explorer part(shape, TopAbs_FACE, TopAbs_SHELL); part.More(); part.Next())
     parts.Add(part.Current());
   std::vector<TopoDS_Shape> list;  // one by one: for GCC 16, OpenCASCADE's iterators make no range

@@ -2,13 +2,10 @@
 
 #include "geometry/cad/sewing.hpp"
 
+#include <BOPTools_AlgoTools3D.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRepTools.hxx>
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
-#include <GeomAPI_ProjectPointOnSurf.hxx>
-#include <Geom_Surface.hxx>
-#include <Precision.hxx>
+#include <IntTools_Context.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -17,7 +14,6 @@
 #include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "geometry/cad/face_exchange.hpp"
 
@@ -36,21 +32,6 @@ std::vector<int> rim_of(const TopoDS_Shape& face, const TopTools_IndexedMapOfSha
   for (const auto& [edge, times] : uses)
     if (times == 1) rim.push_back(edge);
   return rim;
-}
-
-/// A point inside a face: of a grid over its parameters, the one nearest the middle.
-std::optional<gp_Pnt> inner_point(const TopoDS_Face& face) {
-  double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
-  BRepTopAdaptor_FClass2d inside(face, Precision::PConfusion());
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  constexpr std::array<double, 9> shares{0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9};
-  for (const double s : shares)
-    for (const double t : shares) {
-      const gp_Pnt2d uv(u0 + s * (u1 - u0), v0 + t * (v1 - v0));
-      if (inside.Perform(uv) == TopAbs_IN) return surface->Value(uv.X(), uv.Y());
-    }
-  return std::nullopt;
 }
 
 std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTools_IndexedMapOfShape& edges,
@@ -73,13 +54,11 @@ std::vector<std::array<int, 2>> coincident_faces(const Faces& faces, const TopTo
 }  // namespace
 
 bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance) {
-  const std::optional<gp_Pnt> point = inner_point(face);
-  if (!point) return false;
-  GeomAPI_ProjectPointOnSurf foot(*point, BRep_Tool::Surface(other));
-  if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
-  double u = 0, v = 0;
-  foot.LowerDistanceParameters(u, v);
-  return BRepTopAdaptor_FClass2d(other, Precision::PConfusion()).Perform(gp_Pnt2d(u, v)) != TopAbs_OUT;
+  const Handle(IntTools_Context) context = new IntTools_Context;
+  gp_Pnt point;
+  gp_Pnt2d uv;
+  return BOPTools_AlgoTools3D::PointInFace(face, point, uv, context) == 0 &&
+         context->IsValidPointForFace(point, other, tolerance);
 }
 
 Sewn sew(const TopoDS_Shape& shape, double tolerance) {

@@ -11,6 +11,7 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <ShapeFix_Wire.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -131,21 +132,12 @@ bool has_no_border(const Handle(Geom_Surface) & surface) {
   for (const double bound : {u0, u1, v0, v1}) {
     if (Precision::IsInfinite(bound)) return false;
   }
-  const auto is_point = [](const auto& at) {
-    const gp_Pnt first = at(0.0);
-    for (const double share : {0.25, 0.4, 0.6, 1.0}) {
-      if (!first.IsEqual(at(share), Precision::Confusion())) return false;
-    }
-    return true;
+  ShapeAnalysis_Surface analysis(surface);
+  const auto is_point = [&](double u, double v, double other_u, double other_v) {
+    return analysis.IsDegenerated(gp_Pnt2d(u, v), gp_Pnt2d(other_u, other_v), Precision::Confusion(), 1);
   };
-  const auto along_u = [&](double v) {
-    return is_point([&](double share) { return surface->Value(u0 + share * (u1 - u0), v); });
-  };
-  const auto along_v = [&](double u) {
-    return is_point([&](double share) { return surface->Value(u, v0 + share * (v1 - v0)); });
-  };
-  return (surface->IsUClosed() || (along_v(u0) && along_v(u1))) &&
-         (surface->IsVClosed() || (along_u(v0) && along_u(v1)));
+  return (surface->IsUClosed() || (is_point(u0, v0, u0, v1) && is_point(u1, v0, u1, v1))) &&
+         (surface->IsVClosed() || (is_point(u0, v0, u1, v0) && is_point(u0, v1, u1, v1)));
 }
 
 }  // namespace

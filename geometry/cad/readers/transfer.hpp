@@ -1,6 +1,7 @@
 #pragma once
 /// Reading with OpenCASCADE's readers of exchange formats, with the same result in every run.
 
+#include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
@@ -29,24 +30,41 @@
 
 namespace quadrille {
 
-/// Shape healing that leaves self-touching wires as they are in the file.
-class HealingWithoutLoops : public ShapeAlgo_ToolContainer {
+/// OpenCASCADE's shape healing, on a shape whose plane faces keep the parametric curves of their edges:
+/// without them, every step of healing, and of meshing after it, would compute them again.
+class Healing : public ShapeFix_Shape {
  public:
-  Handle(ShapeFix_Shape) FixShape() const override {
-    Handle(ShapeFix_Shape) fix = ShapeAlgo_ToolContainer::FixShape();
-    fix->FixFaceTool()->FixLoopWiresMode() = Standard_False;
-    return fix;
+  /// The readers call this last before they heal, when they have handed over the shape.
+  void SetMaxTolerance(const double tolerance) override {
+    ShapeFix_Shape::SetMaxTolerance(tolerance);
+    for (TopExp_Explorer face(Shape(), TopAbs_FACE); face.More(); face.Next())
+      for (TopExp_Explorer edge(face.Current(), TopAbs_EDGE); edge.More(); edge.Next())
+        BRepLib::BuildPCurveForEdgeOnPlane(TopoDS::Edge(edge.Current()), TopoDS::Face(face.Current()));
   }
 };
 
-/// While it exists, readers heal with HealingWithoutLoops, whatever a settings file says (CSF_STEPDefaults,
+class HealingTools : public ShapeAlgo_ToolContainer {
+ public:
+  /// \param with_loops whether self-touching wires are cut into pieces, or left as they are in the file.
+  explicit HealingTools(bool with_loops) : with_loops_(with_loops) {}
+  Handle(ShapeFix_Shape) FixShape() const override {
+    const Handle(ShapeFix_Shape) fix = new Healing;
+    if (!with_loops_) fix->FixFaceTool()->FixLoopWiresMode() = Standard_False;
+    return fix;
+  }
+
+ private:
+  bool with_loops_;
+};
+
+/// While it exists, readers heal with HealingTools, whatever a settings file says (CSF_STEPDefaults,
 /// CSF_IGESDefaults). It restores the previous state, since the surrounding program may read files too.
 class HealingScope {
  public:
-  HealingScope() {
+  explicit HealingScope(bool with_loops) {
     ShapeAlgo::Init();
     tools_ = ShapeAlgo::AlgoContainer()->ToolContainer();
-    ShapeAlgo::AlgoContainer()->SetToolContainer(new HealingWithoutLoops);
+    ShapeAlgo::AlgoContainer()->SetToolContainer(new HealingTools(with_loops));
     for (std::size_t i = 0; i < settings.size(); ++i) {
       before_[i] = Interface_Static::CVal(settings[i]);
       Interface_Static::SetCVal(settings[i], "none");
@@ -99,8 +117,9 @@ inline bool has_faces_that_touch_beside_seam(const TopoDS_Shape& shape) {
 
 /// \returns whether the file is readable.
 template <class Reader>
-bool read_file(const std::string& path, TopoDS_Shape& shape) {
-  Reader reader;
+bool read_file(const std::string& path, bool with_loops, TopoDS_Shape& shape) {
+  Reader reader;  // defines the settings
+  const HealingScope healing(with_loops);
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return false;
   reader.TransferRoots();
@@ -113,11 +132,8 @@ bool read_file(const std::string& path, TopoDS_Shape& shape) {
 template <class Reader>
 std::string transfer(const std::string& path, const char* format, TopoDS_Shape& shape) {
   try {
-    bool readable = read_file<Reader>(path, shape);
-    if (readable && has_faces_that_touch_beside_seam(shape)) {
-      const HealingScope healing;
-      readable = read_file<Reader>(path, shape);
-    }
+    bool readable = read_file<Reader>(path, true, shape);
+    if (readable && has_faces_that_touch_beside_seam(shape)) readable = read_file<Reader>(path, false, shape);
     return readable ? std::string() : fmt::format("{} is not a readable {} file", path, format);
   } catch (const Standard_Failure& problem) {
     return fmt::format("{} could not be read as {} ({})", path, format, problem.GetMessageString());
