@@ -203,7 +203,8 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
     for (const double away : {close_by, 0.3, 0.6, 1.0}) {
       if ((corner || !result.empty()) && away > close_by)
         break;  // what is found farther away is behind a wall, not behind a riser
-      for (const double share : {0.5, 0.25, 0.75}) {
+      for (const double share : {0.5, 0.25, 0.75, 0.06, 0.94}) {
+        if (std::abs(share - 0.5) > 0.3 && result.empty()) continue;  // only others beside what is found
         const double at = edge.first() + share * (edge.last() - edge.first());
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
