@@ -120,7 +120,7 @@ struct Contact {
   int thinnest = -1;         ///< wall among them, rather not of a strip that was added
   double length = 0;         ///< of the edges at which they end
   std::vector<Fan> on_skin;  ///< the edges that would be free, on the skin
-  double loose = 0;  ///< length of the longest edge that would be free elsewhere, or beside a step
+  double loose = 0;          ///< length of the longest edge that it would leave open
 };
 
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
@@ -156,6 +156,8 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       Contact result;
       bool added = true;  // the face whose wall is the thinnest
       const EdgeUses own_edges(strip);
+      std::vector<TopoDS_Edge> loose;
+      TopTools_MapOfShape met_vertices;
       for (int i = 0; i < own_edges.count(); ++i) {
         const TopoDS_Edge edge = TopoDS::Edge(own_edges.edge(i));
         const std::vector<EdgeUses::Use>& own_uses = own_edges.uses(i);
@@ -167,11 +169,12 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           const TopAbs_Orientation orientation = own_uses.front().orientation;
           if (strips_there > 1 || orientation == TopAbs_INTERNAL) continue;
           const bool off = is_off_skin(edge, walls[piece.wall].thickness);
-          if (off || piece.step) result.loose = std::max(result.loose, length_of(edge));
+          if (off || piece.step) loose.push_back(edge);
           if (!off)
             result.on_skin.push_back(fan_at(TopoDS::Edge(edge.Oriented(orientation)), piece.face, 0.5));
           continue;
         }
+        for (TopoDS_Iterator it(edge); it.More(); it.Next()) met_vertices.Add(it.Value());
         const std::vector<EdgeUses::Use>& around = uses.uses(found);
         const bool ended = ends_inside(found);
         if (ended) result.length += length_of(edge);
@@ -187,6 +190,13 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           added = face.step;
         }
       }
+      for (const TopoDS_Edge& edge : loose) {
+        // What is open at the end of a stretch of a step starts at a middle surface; other edges lie beside
+        // it.
+        const bool at_end = met_vertices.Contains(TopExp::FirstVertex(edge)) ||
+                            met_vertices.Contains(TopExp::LastVertex(edge));
+        result.loose = std::max(result.loose, strip.front().step && !at_end ? skin.size() : length_of(edge));
+      }
       return result;
     };
     for (const Strip& strip : strips) {
@@ -196,7 +206,8 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       const bool step = strip.front().step;
       double area = 0;
       for (const JoinedFace& piece : strip) area += area_of(piece.face);
-      if (area > walls[wall].thickness * contact.length || contact.loose > walls[wall].thickness) continue;
+      if (area > walls[wall].thickness * contact.length) continue;
+      if (contact.loose > walls[wall].thickness) continue;
       const bool own = !step && contact.ended.count(wall) != 0;
       if (!bridges && !own && !step) continue;
       const int joins = own ? wall : contact.thinnest;

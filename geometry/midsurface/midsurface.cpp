@@ -425,8 +425,8 @@ std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, 
   std::erase_if(alone, [&](int face) {
     return in_plane_of_side(skin, middle.walls, face) ||
            std::none_of(result.stray_faces.begin(), result.stray_faces.end(), [&](const auto& faces) {
-      return std::find(faces.begin(), faces.end(), face) != faces.end();
-    });
+             return std::find(faces.begin(), faces.end(), face) != faces.end();
+           });
   });
   const std::string advice =
       alone.empty() ? ""

@@ -917,13 +917,18 @@ TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
   }
 }
 
-TEST(MidSurface, LeadsALipInsideRoundACorner) {
+TEST(MidSurface, LeadsALipRoundACorner) {
   for (const double lip : {0.8, 1.0, 1.4}) {
     SCOPED_TRACE(lip);
     expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
                            block({2 - lip, 2 - lip, 39}, 98 + lip, lip, 9),
                            block({2 - lip, 2 - lip, 39}, lip, 68 + lip, 9)}));
+    expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
+                           block({0, 0, 39}, 100, lip, 9), block({0, 0, 39}, lip, 70, 9)}));
   }
+  // Half beside the wall.
+  expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
+                         block({1, 1, 38}, 99, 2, 10), block({1, 1, 38}, 2, 69, 10)}));
 }
 
 TEST(MidSurface, JoinsALeaningFloorToItsStep) {
