@@ -89,15 +89,8 @@ bool across_a_wall(const Skin& skin, const std::vector<Wall>& walls, const SkinF
   return across > 0.5 * face.area();
 }
 
-/// A middle face at a point of one of its edges.
-struct Fan {
-  gp_Pnt point;
-  gp_Vec along;   ///< unit tangent of the edge, in the direction of its curve
-  gp_Vec normal;  ///< unit normal of the face
-  gp_Vec away;    ///< unit vector in the face, across the edge and out of the face
-};
+}  // namespace
 
-/// \param edge oriented as in the face. \param share of the edge's parameters.
 Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   Fan result;
   const BRepAdaptor_Curve curve(edge);
@@ -117,6 +110,31 @@ Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
   return result;
 }
+
+namespace {
+
+/// Whether the middle leaves the material through a side of the wall.
+bool leaves_through(const Wall& wall, const Skin& skin, const Fan& fan) {
+  const auto position = position_in(wall, skin, fan.point);
+  if (!position) return false;
+  for (int side = 0; side < 2; ++side) {
+    if (position->feet[side].Distance(fan.point) > 1e-3 * wall.thickness) continue;
+    const SkinFace& face = skin.faces()[position->faces[side]];
+    const auto outward = face.outward(face.closest(fan.point));
+    return outward && gp_Vec(*outward).Dot(fan.away) > 0.5;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan) {
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
+    if (wall != own && leaves_through(walls[wall], skin, fan)) return true;
+  return false;
+}
+
+namespace {
 
 /// The numbers of the two faces of the solid that are nearest to a point, ascending; one where both are parts
 /// of the same face. Linear in the faces, for points that a check has found wrong.
@@ -150,10 +168,7 @@ class RimCheck {
     const double step = 0.02 * walls_[own].thickness;
     const gp_Pnt behind = fan.point.Translated(step * fan.away);
     if (skin_.in_material(behind) && skin_.faces_at(behind, 1e-3 * step).empty()) return false;
-    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
-      if (wall != own && on_side(walls_[wall], fan)) return false;
-    }
-    return true;
+    return !leaves_through_side(skin_, walls_, own, fan);
   }
 
   /// Whether the edge runs through the thickness of another wall, as the rim of a rib does below the skin of
@@ -183,19 +198,6 @@ class RimCheck {
       result = std::abs(fan.along.Dot(gp_Vec(*outward))) > 0.5;
     }
     return result;
-  }
-
-  /// Whether the middle leaves the material through a side of the wall.
-  bool on_side(const Wall& wall, const Fan& fan) const {
-    const auto position = position_in(wall, skin_, fan.point);
-    if (!position) return false;
-    for (int side = 0; side < 2; ++side) {
-      if (position->feet[side].Distance(fan.point) > 1e-3 * wall.thickness) continue;
-      const SkinFace& face = skin_.faces()[position->faces[side]];
-      const auto outward = face.outward(face.closest(fan.point));
-      return outward && gp_Vec(*outward).Dot(fan.away) > 0.5;
-    }
-    return false;
   }
 
   const Skin& skin_;

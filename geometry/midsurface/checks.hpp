@@ -2,6 +2,8 @@
 /// Checks of the middle surface of a solid against the solid. Internal.
 
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <map>
 #include <vector>
 
@@ -11,6 +13,20 @@
 #include "geometry/midsurface/walls.hpp"
 
 namespace quadrille {
+
+/// A middle face at a point of one of its edges.
+struct Fan {
+  gp_Pnt point;
+  gp_Vec along;   ///< unit tangent of the edge, in the direction of its curve
+  gp_Vec normal;  ///< unit normal of the face
+  gp_Vec away;    ///< unit vector in the face, across the edge and out of the face
+};
+
+/// \param edge oriented as in the face. \param share of the edge's parameters.
+Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share);
+
+/// Whether the middle of the wall `own` leaves the material through a side of another wall.
+bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan);
 
 /// Sorts numbers and removes those that occur twice.
 void sort_unique(std::vector<int>& numbers);

@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/widths.hpp"
@@ -82,32 +83,64 @@ Coverage whole_coverage(int wall, const std::vector<Wall>& walls) {
   return {1, t, t, t, {sides.begin(), sides.end()}};
 }
 
-/// The pieces of fences at steps, as faces that may join the walls there.
-std::vector<JoinedFace> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<WallEnd>& ends) {
-  std::vector<JoinedFace> result;
+/// Faces that may be added together: a piece that hangs over, or the pieces of fences at steps in one place.
+using Strip = std::vector<JoinedFace>;
+
+/// The pieces of fences at steps. Those that only other fences separate are one strip: there may be several
+/// fences in one place, each a little higher than the step that it was made for.
+std::vector<Strip> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vector<WallEnd>& ends,
+                                   const Images& cut) {
+  std::vector<JoinedFace> pieces;
   TopTools_MapOfShape taken;
   for (const WallEnd& end : ends) {
+    if (!end.step) continue;
     for (const TopoDS_Shape& image : images(fuse, end.fence))
-      if (end.step && taken.Add(image)) result.push_back({TopoDS::Face(image), end.wall, true, {}});
+      if (taken.Add(image)) pieces.push_back({TopoDS::Face(image), end.wall, true, {}});
   }
+  const EdgeUses uses(pieces), between(cut.between), hung_over(cut.hung_over);
+  boost::disjoint_sets_with_storage<> together(pieces.size());
+  for (int i = 0; i < uses.count(); ++i) {
+    const TopoDS_Edge& edge = TopoDS::Edge(uses.edge(i));
+    const std::vector<EdgeUses::Use>& around = uses.uses(i);
+    if (around.size() != 2 || between.find(edge) >= 0 || hung_over.find(edge) >= 0) continue;
+    const gp_Vec first = fan_at(edge, pieces[around[0].face].face, 0.5).normal;
+    if (std::abs(first.Dot(fan_at(edge, pieces[around[1].face].face, 0.5).normal)) > 0.999)
+      together.union_set(around[0].face, around[1].face);
+  }
+  std::map<std::size_t, Strip> strips;  // by the piece that stands for it
+  for (std::size_t i = 0; i < pieces.size(); ++i) strips[together.find_set(i)].push_back(pieces[i]);
+  std::vector<Strip> result;
+  for (const auto& [piece, strip] : strips) result.push_back(strip);
   return result;
 }
 
-/// What a face that may be added meets.
+/// What a strip that may be added meets.
 struct Contact {
   std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
   int thinnest = -1;         ///< wall among them, rather not of a strip that was added
   double length = 0;         ///< of the edges at which they end
+  std::vector<Fan> on_skin;  ///< the edges that would be free, on the skin
+  double loose = 0;          ///< length of the longest edge that it would leave open
 };
 
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
 /// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
 /// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
 /// over has cut it. \param strips those that may be added
-void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& strips,
+void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<Strip>& strips,
                     std::vector<JoinedFace>& faces) {
-  const EdgeUses among(strips);
+  std::vector<JoinedFace> pieces;
+  for (const Strip& strip : strips) pieces.insert(pieces.end(), strip.begin(), strip.end());
+  const EdgeUses among(pieces);
   TopTools_DataMapOfShapeInteger off_skin;  // by edge
+  const auto is_off_skin = [&](const TopoDS_Shape& edge, double thickness) {
+    if (const int* known = off_skin.Seek(edge)) return *known != 0;
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
+    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+    const bool off = skin.faces_at(middle, 1e-3 * thickness).empty();
+    off_skin.Bind(edge, off ? 1 : 0);
+    return off;
+  };
   bool bridges = false;  // first what belongs to a wall that ends, or to a step
   for (bool changed = true; changed || !bridges;) {
     bridges = bridges || !changed;
@@ -117,28 +150,37 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     const auto ends_inside = [&](int edge) {
       const EdgeUses::Use& use = uses.uses(edge).front();
       if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
-      if (const int* known = off_skin.Seek(uses.edge(edge))) return *known != 0;
-      const BRepAdaptor_Curve curve(TopoDS::Edge(uses.edge(edge)));
-      const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-      const bool off = skin.faces_at(middle, 1e-3 * walls[faces[use.face].wall].thickness).empty();
-      off_skin.Bind(uses.edge(edge), off ? 1 : 0);
-      return off;
+      return is_off_skin(uses.edge(edge), walls[faces[use.face].wall].thickness);
     };
-    const auto contact_of = [&](const JoinedFace& strip) {
+    const auto contact_of = [&](const Strip& strip) {
       Contact result;
       bool added = true;  // the face whose wall is the thinnest
-      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) {
-        const int edge = uses.find(it.Current());
-        if (closed.Contains(it.Current())) return Contact();
-        if (edge < 0) continue;
-        const std::vector<EdgeUses::Use>& around = uses.uses(edge);
-        // Where nothing else has cut a wall off from what hangs over, a fence has: it ends there.
-        const bool own = !strip.step && faces[around.front().face].wall == strip.wall;
-        const bool ended = !(own && among.uses(among.find(it.Current())).size() < 2) && ends_inside(edge);
-        if (ended) result.length += length_of(TopoDS::Edge(it.Current()));
+      const EdgeUses own_edges(strip);
+      std::vector<TopoDS_Edge> loose;
+      TopTools_MapOfShape met_vertices;
+      for (int i = 0; i < own_edges.count(); ++i) {
+        const TopoDS_Edge edge = TopoDS::Edge(own_edges.edge(i));
+        const std::vector<EdgeUses::Use>& own_uses = own_edges.uses(i);
+        const JoinedFace& piece = strip[own_uses.front().face];
+        if (closed.Contains(edge)) return Contact();
+        const std::size_t strips_there = among.uses(among.find(edge)).size();
+        const int found = uses.find(edge);
+        if (found < 0) {
+          const TopAbs_Orientation orientation = own_uses.front().orientation;
+          if (strips_there > 1 || orientation == TopAbs_INTERNAL) continue;
+          const bool off = is_off_skin(edge, walls[piece.wall].thickness);
+          if (off || piece.step) loose.push_back(edge);
+          if (!off)
+            result.on_skin.push_back(fan_at(TopoDS::Edge(edge.Oriented(orientation)), piece.face, 0.5));
+          continue;
+        }
+        for (TopoDS_Iterator it(edge); it.More(); it.Next()) met_vertices.Add(it.Value());
+        const std::vector<EdgeUses::Use>& around = uses.uses(found);
+        const bool ended = ends_inside(found);
+        if (ended) result.length += length_of(edge);
         for (const EdgeUses::Use& use : around) {
           const JoinedFace& face = faces[use.face];
-          if (strip.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
+          if (piece.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
           result.met.insert(face.wall);
           if (ended) result.ended.insert(face.wall);
           if (result.thinnest >= 0 && std::pair(added, walls[result.thinnest].thickness) <=
@@ -148,17 +190,34 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           added = face.step;
         }
       }
+      for (const TopoDS_Edge& edge : loose) {
+        // What is open at the end of a stretch of a step starts at a middle surface; other edges lie beside
+        // it.
+        const bool at_end = met_vertices.Contains(TopExp::FirstVertex(edge)) ||
+                            met_vertices.Contains(TopExp::LastVertex(edge));
+        result.loose = std::max(result.loose, strip.front().step && !at_end ? skin.size() : length_of(edge));
+      }
       return result;
     };
-    for (JoinedFace strip : strips) {
+    for (const Strip& strip : strips) {
       const Contact contact = contact_of(strip);
       if (contact.ended.empty() || contact.met.size() < 2) continue;
-      if (area_of(strip.face) > walls[strip.wall].thickness * contact.length) continue;
-      const bool own = !strip.step && contact.ended.count(strip.wall) != 0;
-      if (!bridges && !own && !strip.step) continue;
-      if (!own) strip = {strip.face, contact.thinnest, true, whole_coverage(contact.thinnest, walls)};
-      faces.push_back(strip);
-      for (TopExp_Explorer it(strip.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
+      const int wall = strip.front().wall;
+      const bool step = strip.front().step;
+      double area = 0;
+      for (const JoinedFace& piece : strip) area += area_of(piece.face);
+      if (area > walls[wall].thickness * contact.length) continue;
+      if (contact.loose > walls[wall].thickness) continue;
+      const bool own = !step && contact.ended.count(wall) != 0;
+      if (!bridges && !own && !step) continue;
+      const int joins = own ? wall : contact.thinnest;
+      if (std::any_of(contact.on_skin.begin(), contact.on_skin.end(),
+                      [&](const Fan& fan) { return leaves_through_side(skin, walls, joins, fan); }))
+        continue;
+      for (const JoinedFace& piece : strip) {
+        faces.push_back(own ? piece : JoinedFace{piece.face, joins, true, whole_coverage(joins, walls)});
+        for (TopExp_Explorer it(piece.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
+      }
       changed = true;
     }
   }
@@ -352,9 +411,9 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
     fused = fuse_pieces(ends, pieces, fuzzy, context, fuse);
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
   Images cut = cut_pieces(fuse, skin, walls, pieces, context);
+  std::vector<Strip> strips = fences_at_steps(fuse, ends, cut);
+  for (const JoinedFace& piece : cut.hung_over) strips.push_back({piece});
   std::vector<JoinedFace> faces = std::move(cut.between);
-  std::vector<JoinedFace> strips = fences_at_steps(fuse, ends);
-  strips.insert(strips.end(), cut.hung_over.begin(), cut.hung_over.end());
   grow_to_others(skin, walls, strips, faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces, context);

@@ -40,6 +40,7 @@
 #include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/joining.hpp"
+#include "geometry/midsurface/middle_geometry.hpp"
 #include "geometry/midsurface/plain_faces.hpp"
 #include "geometry/midsurface/skin.hpp"
 #include "geometry/midsurface/solids.hpp"
@@ -392,8 +393,21 @@ void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& n
   result.warnings.push_back(twice_sentence(twice, result.volume, middle.name, faces));
 }
 
+/// Whether a face of the solid goes on in the plane of a wall's side: no fillet or slope does.
+bool in_plane_of_side(const Skin& skin, const std::vector<Wall>& walls, int number) {
+  const auto& faces = skin.faces();
+  const auto face = std::find_if(faces.begin(), faces.end(),
+                                 [&](const SkinFace& other) { return other.number() == number; });
+  if (face == faces.end() || face->surface().GetType() != GeomAbs_Plane) return false;
+  return std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) {
+    const std::vector<int> sides = both_sides(wall);
+    return std::any_of(sides.begin(), sides.end(),
+                       [&](int side) { return on_one_surface(*face, faces[side], skin.size()); });
+  });
+}
+
 /// Where free edges end inside the material, by faces of the solid, and what to do about it.
-std::string stray_sentence(const MidSurface& result, const std::string& name) {
+std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, const Skin& skin) {
   constexpr std::size_t places_shown = 4;
   std::vector<std::string> places;
   for (const std::vector<int>& faces : result.stray_faces) {
@@ -409,9 +423,10 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
   std::vector<int> alone = result.unpaired;  // the faces there that belong to no wall
   std::erase_if(alone, [&](int face) {
-    return std::none_of(result.stray_faces.begin(), result.stray_faces.end(), [&](const auto& faces) {
-      return std::find(faces.begin(), faces.end(), face) != faces.end();
-    });
+    return in_plane_of_side(skin, middle.walls, face) ||
+           std::none_of(result.stray_faces.begin(), result.stray_faces.end(), [&](const auto& faces) {
+             return std::find(faces.begin(), faces.end(), face) != faces.end();
+           });
   });
   const std::string advice =
       alone.empty() ? ""
@@ -420,7 +435,7 @@ std::string stray_sentence(const MidSurface& result, const std::string& name) {
   return fmt::format(
       "{}: {} of the middle surface {} inside the material {} (faces of the solid): the walls there are not "
       "joined, or one is extended too far{}",
-      name, one ? "a free edge" : fmt::format("{} free edges", result.stray_edges.size()),
+      middle.name, one ? "a free edge" : fmt::format("{} free edges", result.stray_edges.size()),
       one ? "ends" : "end", fmt::join(places, ", "), advice);
 }
 
@@ -473,7 +488,7 @@ std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& sk
     hollow.push_back(numbers.faces.FindIndex(middle.faces[face].face));
   if (!hollow.empty()) checked.warnings.push_back(hollow_sentence(middle.name, hollow));
   if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
-  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle.name));
+  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle, skin));
   return problems;
 }
 

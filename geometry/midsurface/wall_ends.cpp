@@ -203,7 +203,8 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
     for (const double away : {close_by, 0.3, 0.6, 1.0}) {
       if ((corner || !result.empty()) && away > close_by)
         break;  // what is found farther away is behind a wall, not behind a riser
-      for (const double share : {0.5, 0.25, 0.75}) {
+      for (const double share : {0.5, 0.25, 0.75, 0.06, 0.94}) {
+        if (std::abs(share - 0.5) > 0.3 && result.empty()) continue;  // only others beside what is found
         const double at = edge.first() + share * (edge.last() - edge.first());
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
@@ -353,7 +354,11 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   const auto up_to_corner = [&](double from, double end) {
     const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
     const bool corner = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end);
-    return corner ? end : from;
+    const double stop = corner ? end : from;
+    // Round a corner the next wall may go on past the end of the edge, as a lip flush with the outside does.
+    const double past = std::copysign(0.2 * thickness, end - 0.5 * (2 * first + length));
+    const bool line = edge.curve().GetType() == GeomAbs_Line;
+    return line && std::abs(stop - end) < 1e-3 * thickness && begins(end + past) ? end + 4.5 * past : stop;
   };
   std::vector<FaceEdge> result;
   for (int i = 0; i < count; ++i) {

@@ -839,6 +839,7 @@ TEST(MidSurface, RefusesFreeEdgesThatAreNotAtARim) {
     const std::string told = error.what();
     EXPECT_NE(told.find("inside the material between Face"), std::string::npos) << told;
     EXPECT_NE(told.find("; `partial` gives it nevertheless"), std::string::npos) << told;
+    EXPECT_EQ(told.find("fillet"), std::string::npos) << told;  // there is none
   }
   const MidSurface middle = middle_of(solid, true);
   ASSERT_FALSE(middle.stray_edges.empty());
@@ -903,6 +904,31 @@ TEST(MidSurface, FindsPocketsBesideEachOther) {
   const TopoDS_Shape plate = block({0, 0, 0}, 160, 100, 6);
   const TopoDS_Shape one = BRepAlgoAPI_Cut(plate, block({15, 15, 4}, 90, 70, 4)).Shape();
   expect_one_part(BRepAlgoAPI_Cut(one, block({60, 15, -2}, 85, 70, 4)).Shape());
+  expect_one_part(BRepAlgoAPI_Cut(one, block({60, 15, -2}, 85, 70, 3)).Shape());
+  expect_one_part(BRepAlgoAPI_Cut(one, block({80, 25, -2}, 65, 50, 4)).Shape());
+  expect_one_part(BRepAlgoAPI_Cut(one, block({60, 40, -2}, 85, 50, 4)).Shape());
+}
+
+TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
+  for (const double thickness : {1.0, 2.0, 3.0}) {
+    expect_one_part(fused({block({-30, 0, 0}, 60, 2, 120), block({-30, 0, 0}, 2, 40, 120),
+                           block({28, 0, 0}, 2, 40, 120), block({-45, 38, 0}, 17, 2, 120),
+                           block({28, 38, 0}, 17, 2, 120), block({-30, 0, 60}, 60, 40, thickness)}));
+  }
+}
+
+TEST(MidSurface, LeadsALipRoundACorner) {
+  for (const double lip : {0.8, 1.0, 1.4}) {
+    SCOPED_TRACE(lip);
+    expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
+                           block({2 - lip, 2 - lip, 39}, 98 + lip, lip, 9),
+                           block({2 - lip, 2 - lip, 39}, lip, 68 + lip, 9)}));
+    expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
+                           block({0, 0, 39}, 100, lip, 9), block({0, 0, 39}, lip, 70, 9)}));
+  }
+  // Half beside the wall.
+  expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
+                         block({1, 1, 38}, 99, 2, 10), block({1, 1, 38}, 2, 69, 10)}));
 }
 
 TEST(MidSurface, JoinsALeaningFloorToItsStep) {
