@@ -228,28 +228,140 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertEqual(mesh.Keep, ["Edge7", "Edge12"])
 
+    def findings(self):
+        """The texts in the table of findings, by name."""
+        table = find("QuadrilleFindings")
+        rows = range(table.rowCount() if table.isVisible() else 0)
+        return {table.item(row, 0).text(): (table.item(row, 1).text(), table.item(row, 2).text()) for row in rows}
+
+    @staticmethod
+    def click_finding(name):
+        """Clicks on a row of the table of findings."""
+        table = find("QuadrilleFindings")
+        item = table.findItems(name, QtCore.Qt.MatchExactly)[0]
+        find("QuadrilleScrolled").ensureWidgetVisible(table)
+        table.scrollToItem(item)
+        process(0.2)
+        click(table.viewport(), QtCore.QPointF(table.visualItemRect(item).center()))
+
+    def selected(self):
+        """The names selected in the 3-D view."""
+        return [name for entry in FreeCADGui.Selection.getSelectionEx(self.document.Name) for name in entry.SubElementNames]
+
     def test_smooth_edges_that_quads_cross_are_told_once(self):
         part = self.document.addObject("Part::Feature", "Cone")
         part.Shape = Part.read(str(MODELS / "cone.brep"))
         self.show()
         mesh = self.open_panel(part)
         self.press_mesh()
-        crossed = find("QuadrilleCrossed")
-        self.assertTrue(crossed.isVisible())
-        self.assertIn("without a group): 1;", crossed.text())
-        self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
+        self.assertIn("Edge2", self.findings())
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
         self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
         picture("crossed")
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.CROSSED))
         self.edit(mesh)
-        crossed = find("QuadrilleCrossed")
-        self.assertTrue(crossed.isVisible())  # still told when the panel opens again
+        self.assertEqual(self.findings()["Edge2"], ("smooth edge that quads cross; on Face1", ""))  # told when the panel opens again
         find("QuadrilleMore").setChecked(True)
         find("QuadrilleKeepFeatures").setChecked(True)
         self.press_mesh()
-        self.assertFalse(crossed.isVisible())
+        self.assertNotIn("Edge2", self.findings())
+        close_panel()
+
+    def stepped(self):
+        """A box with a step along one edge that is too small for its mesh."""
+        part = self.document.addObject("Part::Feature", "Stepped")
+        part.Shape = Part.makeBox(100, 60, 40).cut(Part.makeBox(0.1, 0.1, 40))
+        self.show()
+        return part
+
+    def test_what_went_is_selected_and_kept_by_clicks(self):
+        part = self.stepped()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "5 mm")
+        self.press_mesh()
+        found = self.findings()
+        groups = {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups}
+        gone = [name for name in found if name.startswith("Edge") and name not in groups and part.Shape.getElement(name).Length > 30]
+        self.assertTrue(gone, found)
+        self.assertIn("suppressed, as it is small: ", found[gone[0]][0])
+        self.assertGreater(float(found[gone[0]][1]), 0)
+        distances = [float(entry[1]) for entry in found.values() if entry[1] and "suppressed" in entry[0]]
+        self.assertEqual(distances, sorted(distances, reverse=True))
+        self.click_finding(gone[0])
+        self.assertEqual(self.selected(), [gone[0]])
+        self.assertTrue(overlays.is_shown(mesh, overlays.MARKS))
+        picture("finding")
+        short = next(name for name in found if name.startswith("Edge") and part.Shape.getElement(name).Length < 1)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        self.click_finding(short)
+        self.assertEqual(self.selected(), [short])
+        self.assertLess(camera.height.getValue(), 20)  # it was too small to be seen
+        picture("finding_zoomed")
+        self.click_finding(gone[0])
+        find("QuadrilleKeep").click()
+        process(0.2)
+        self.assertIn("to be kept", self.findings()[gone[0]][0])
+        wait_for(lambda: find("QuadrilleStatus").text() == state.SETTINGS_CHANGED, what="the status")
+        self.press_mesh()
+        self.assertEqual(mesh.Keep, [gone[0]])
+        self.assertIn(gone[0], {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups})
+        self.assertEqual(self.findings()[gone[0]][0].partition(";")[0], "to be kept")
+        picture("finding_kept")
+        # What is clicked on the model is kept as well, and suppressed again.
+        self.select(part, "Face1")
+        find("QuadrilleKeep").click()
+        self.assertEqual(self.findings()["Face1"][0].partition(";")[0], "to be kept")
+        self.select(part, "Face1", gone[0])
+        find("QuadrilleSuppress").click()
+        self.press_mesh()
+        self.assertEqual(mesh.Keep, [])
+        self.assertNotIn(gone[0], {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups})
+        FreeCADGui.Selection.clearSelection()
+        with Boxes() as boxes:
+            find("QuadrilleKeep").click()
+        self.assertEqual(boxes.texts, ["Select them on Stepped in the 3-D view first."])
+        close_panel()
+        self.assertFalse(overlays.is_shown(mesh, overlays.MARKS))
+
+    def test_a_click_on_the_model_selects_its_row(self):
+        part = self.stepped()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "5 mm")
+        self.select(part, "Face6")
+        self.press_mesh()
+        find("QuadrilleKeep").click()
+        mesh.ViewObject.hide()
+        part.ViewObject.show()
+        self.show()
+        find("QuadrilleFindings").clearSelection()
+        face = next(name for name in (f"Face{k}" for k in range(1, 9)) if abs(part.Shape.getElement(name).CenterOfMass.z - 40) < 1e-6)
+        self.select(part, face)
+        find("QuadrilleKeep").click()
+        FreeCADGui.Selection.clearSelection()
+        find("QuadrilleFindings").clearSelection()
+        click_at(FreeCAD.Vector(55, 30, 40))
+        table = find("QuadrilleFindings")
+        self.assertEqual([table.item(index.row(), 0).text() for index in table.selectionModel().selectedRows()], [face])
+        close_panel(CANCEL)
+
+    def test_a_click_on_a_cause_of_poor_quads_zooms_there(self):
+        part = self.document.addObject("Part::Feature", "Wedge")
+        corners = [FreeCAD.Vector(*point) for point in ((0, 0), (100, 0), (100, 8))]
+        part.Shape = Part.Face(Part.makePolygon([*corners, corners[0]]))
+        self.show()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "4 mm")
+        self.press_mesh()
+        cause = next(name for name, (text, _) in self.findings().items() if "poor quads" in text)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        before = camera.height.getValue()
+        self.click_finding(cause)
+        self.assertEqual(self.selected(), [cause])
+        self.assertLess(camera.height.getValue(), before / 2)
+        self.assertTrue(overlays.is_shown(mesh, overlays.ELEMENT))
+        self.assertIn(" on Face1: q ", find("QuadrilleElement").text())
+        picture("cause")
         close_panel()
 
     def test_buttons_stay_in_sight(self):

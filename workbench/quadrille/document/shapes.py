@@ -87,7 +87,7 @@ def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
         found = element if target == owner else find_element(shape, _element_in(owner, target, element))
         if found and found.startswith("Solid"):
             names += _faces_of_solid(shape, int(found[5:]))
-        elif found and _exists(shape, found):
+        elif found and has_element(shape, found):
             names.append(found)
         else:
             raise Error(f"{target.Label}.{element}: is not in the meshed part", "usage", element)
@@ -202,7 +202,7 @@ def measures(element) -> List[float]:
     return [*element.CenterOfMass, size, *spread]
 
 
-def _exists(shape, name: str) -> bool:
+def has_element(shape, name: str) -> bool:
     kind = name.rstrip("0123456789")
     return kind in _KINDS and 1 <= int(name[len(kind):] or 0) <= len(getattr(shape, _KINDS[kind]))
 

@@ -17,7 +17,7 @@ from ..core.jobs import ShapeJob
 from ..core.prepared import Prepared
 from ..core.setting_table import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
 from ..core.units import millimeters
-from ..document import containers, groups, links, old_documents, shapes, state, undo
+from ..document import containers, findings, groups, links, old_documents, shapes, state, undo
 from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
 from ..solvers import element_types, results, wrappers
@@ -275,11 +275,8 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
     ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the industry limits, percent; not for warp or short sides"),
-    ("App::PropertyStringList", "FilledHoles", "Result", "Holes, pockets and bosses that are left out, with the faces they lie in"),
-    ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
-    ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each of these edges, as many on each"),
-    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces with quads outside the industry limits or short sides, and why"),
-    ("App::PropertyStringList", "PoorCauses", "Hidden", "The cause of each entry of PoorQuads, as in reports"),
+    ("App::PropertyString", "Findings", "Hidden", "What is left out, crossed or kept, and what forces poor quads, as in reports (JSON)"),
+    ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each smooth edge that quads cross, as many on each"),
     ("App::PropertyIntegerList", "FinerQuads", "Hidden", "Numbers of the quads whose sides may be short, as asked for"),
     ("App::PropertyFloat", "LeastSize", "Result", "Minimum size of the mesh, mm; sides under half of it count as short"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
@@ -458,10 +455,7 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.OutsidePercent = criteria.get("outside_percent", 0.0)
     shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
     mesh.LeastSize = 2 * shortest if shortest else 0.0
-    mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("crossed_edges", ())]
+    mesh.Findings = findings.as_text(report)
     mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("crossed_edges", ()) for point in edge["line"]]
-    mesh.FilledHoles = [f"{hole['kind']} {hole['diameter']:.4g} ({', '.join(hole['in'])})" for hole in report.get("filled_holes", ())]
-    mesh.PoorQuads = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("poor_quads", ())]
-    mesh.PoorCauses = [found["cause"] for found in report.get("poor_quads", ())]
     mesh.FinerQuads = report.get("finer_quads", [])
     mesh.Seconds = sum(report.get("seconds", {}).values())
