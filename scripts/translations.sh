@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compiles the translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts).
+# Compiles the translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts), for those who
+# change them: the .qm files are in the repository, so that every copy of the addon has them.
 #
 #   scripts/translations.sh                     compiles them for FreeCAD (.qm)
 #   scripts/translations.sh --update [xx ...]   first updates the .ts files from the sources; xx: new languages

@@ -520,14 +520,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>erzwungen von {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
-        <translation>Glatte Kanten, die Vierecke kreuzen, in der Ansicht gepunktet und ohne Gruppe: {}; Behalten nennt Kanten, die bleiben</translation>
-    </message>
-    <message>
-        <source>Holes, pockets and bosses that are left out: {}</source>
-        <translation>Löcher, Taschen und Zapfen, die weggelassen sind: {}</translation>
-    </message>
-    <message>
         <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>das Netz liegt in keiner Analyse: im Baum in eine ziehen</translation>
     </message>
@@ -550,10 +542,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>Spannungen kommen nur aus der Mitte der Schale: Spannungen an der Oberfläche</translation>
-    </message>
-    <message>
-        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
-        <translation>Kanten und Flächen mit Vierecken außerhalb der Grenzen: {}</translation>
     </message>
     <message>
         <source>Missing before solving: {}</source>
@@ -694,6 +682,126 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
         <translation>{} hat {} Körper, die sich berühren oder schneiden. Dort verbinden (Verschneiden), so dass sie Knoten teilen?</translation>
+    </message>
+    <message>
+        <source>tiny: replaced by an edge or a node of its neighbors</source>
+        <translation>winzig: eine Kante oder ein Knoten der Nachbarn ersetzt sie</translation>
+    </message>
+    <message>
+        <source>in a filled hole</source>
+        <translation>in einem gefüllten Loch</translation>
+    </message>
+    <message>
+        <source>joined with {}: coplanar</source>
+        <translation>mit {} vereint: in einer Ebene</translation>
+    </message>
+    <message>
+        <source>joined with {}: facets</source>
+        <translation>mit {} vereint: Facetten</translation>
+    </message>
+    <message>
+        <source>crossed: covered by quads whose centers lie on its neighbors</source>
+        <translation>gekreuzt: bedeckt von Vierecken, deren Mitten auf den Nachbarn liegen</translation>
+    </message>
+    <message>
+        <source>no edge or angle there is too small; the mesh itself is irregular there</source>
+        <translation>keine Kante und kein Winkel ist dort zu klein; das Netz selbst ist dort unregelmäßig</translation>
+    </message>
+    <message>
+        <source>small, but meshed: {}</source>
+        <translation>klein, aber vernetzt: {}</translation>
+    </message>
+    <message>
+        <source>boss on {} that is left out</source>
+        <translation>weggelassene Erhebung auf {}</translation>
+    </message>
+    <message>
+        <source>hole in {} that is filled</source>
+        <translation>gefülltes Loch in {}</translation>
+    </message>
+    <message>
+        <source>too small: {} stands for it</source>
+        <translation>zu klein: {} steht dafür</translation>
+    </message>
+    <message>
+        <source>poor quads: {}; {}</source>
+        <translation>schlechte Vierecke: {}; {}</translation>
+    </message>
+    <message>
+        <source>smooth edge that quads cross; on {}</source>
+        <translation>glatte Kante, die Vierecke kreuzen; an {}</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Wo</translation>
+    </message>
+    <message>
+        <source>What, and why</source>
+        <translation>Was, und warum</translation>
+    </message>
+    <message>
+        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Bei Unterdrücktem: wie weit es von dem liegt, was dafür steht; bei gefüllten Löchern: die Breite; bei schlechten Vierecken: die kürzeste Seite</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>
+        <translation>Im nächsten Netz behalten die hier oder in der 3D-Ansicht gewählten Flächen und Kanten eigene Knoten</translation>
+    </message>
+    <message>
+        <source>Suppress</source>
+        <translation>Unterdrücken</translation>
+    </message>
+    <message>
+        <source>The selected faces and edges are no longer kept: where they are small, they may be suppressed or crossed in the next mesh</source>
+        <translation>Die gewählten Flächen und Kanten werden nicht mehr behalten: wo sie klein sind, dürfen sie im nächsten Netz unterdrückt oder gekreuzt werden</translation>
+    </message>
+    <message>
+        <source>to be kept</source>
+        <translation>wird behalten</translation>
+    </message>
+    <message>
+        <source>it is {} long</source>
+        <translation>sie ist {} lang</translation>
+    </message>
+    <message>
+        <source>its sides meet at {} degrees at {}</source>
+        <translation>ihre Seiten bilden {} Grad an {}</translation>
+    </message>
+    <message>
+        <source>{} comes within {} of itself</source>
+        <translation>{} kommt sich selbst bis auf {} nahe</translation>
+    </message>
+    <message>
+        <source>{} and {} come within {} of each other</source>
+        <translation>{} und {} kommen sich bis auf {} nahe</translation>
+    </message>
+    <message>
+        <source>a loop of {} would be too small for elements</source>
+        <translation>eine Schleife von {} wäre zu klein für Elemente</translation>
+    </message>
+    <message>
+        <source>{} is so narrow that it would lose much of its area</source>
+        <translation>{} ist so schmal, dass viel von ihrem Inhalt verloren ginge</translation>
+    </message>
+    <message>
+        <source>two edges of {} would share their nodes</source>
+        <translation>zwei Kanten von {} hätten dieselben Knoten</translation>
+    </message>
+    <message>
+        <source>a node is placed at its boundary</source>
+        <translation>an ihrem Rand ist ein Knoten vorgegeben</translation>
+    </message>
+    <message>
+        <source>its long sides are not everywhere close together</source>
+        <translation>ihre langen Seiten liegen nicht überall dicht beieinander</translation>
+    </message>
+    <message>
+        <source>{} has no valid mesh without it</source>
+        <translation>{} hat ohne sie kein gültiges Netz</translation>
     </message>
 </context>
 <context>

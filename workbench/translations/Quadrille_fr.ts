@@ -520,14 +520,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>imposé par {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
-        <translation>Arêtes lisses que des quadrangles traversent, en pointillé dans la vue et sans groupe : {} ; Garder nomme les arêtes qui restent</translation>
-    </message>
-    <message>
-        <source>Holes, pockets and bosses that are left out: {}</source>
-        <translation>Trous, poches et bossages laissés de côté : {}</translation>
-    </message>
-    <message>
         <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>le maillage n'est dans aucune analyse : le glisser dans une analyse de l'arborescence</translation>
     </message>
@@ -550,10 +542,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>les contraintes viennent du seul milieu de la coque : Contraintes en surface</translation>
-    </message>
-    <message>
-        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
-        <translation>Arêtes et faces dont des quadrangles sont hors limites : {}</translation>
     </message>
     <message>
         <source>Missing before solving: {}</source>
@@ -694,6 +682,126 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
         <translation>{} a {} solides qui se touchent ou se coupent. Les relier là (Imprimer), pour qu'ils partagent des nœuds ?</translation>
+    </message>
+    <message>
+        <source>tiny: replaced by an edge or a node of its neighbors</source>
+        <translation>minuscule : une arête ou un nœud de ses voisines la remplace</translation>
+    </message>
+    <message>
+        <source>in a filled hole</source>
+        <translation>dans un trou rempli</translation>
+    </message>
+    <message>
+        <source>joined with {}: coplanar</source>
+        <translation>réunie avec {} : coplanaires</translation>
+    </message>
+    <message>
+        <source>joined with {}: facets</source>
+        <translation>réunie avec {} : facettes</translation>
+    </message>
+    <message>
+        <source>crossed: covered by quads whose centers lie on its neighbors</source>
+        <translation>traversée : couverte par des quadrangles dont les centres sont sur ses voisines</translation>
+    </message>
+    <message>
+        <source>no edge or angle there is too small; the mesh itself is irregular there</source>
+        <translation>aucune arête ni aucun angle n'y est trop petit ; le maillage lui-même y est irrégulier</translation>
+    </message>
+    <message>
+        <source>small, but meshed: {}</source>
+        <translation>petite, mais maillée : {}</translation>
+    </message>
+    <message>
+        <source>boss on {} that is left out</source>
+        <translation>bossage sur {} laissé de côté</translation>
+    </message>
+    <message>
+        <source>hole in {} that is filled</source>
+        <translation>trou rempli dans {}</translation>
+    </message>
+    <message>
+        <source>too small: {} stands for it</source>
+        <translation>trop petit : {} le remplace</translation>
+    </message>
+    <message>
+        <source>poor quads: {}; {}</source>
+        <translation>mauvais quadrangles : {} ; {}</translation>
+    </message>
+    <message>
+        <source>smooth edge that quads cross; on {}</source>
+        <translation>arête lisse que des quadrangles traversent ; sur {}</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Où</translation>
+    </message>
+    <message>
+        <source>What, and why</source>
+        <translation>Quoi, et pourquoi</translation>
+    </message>
+    <message>
+        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Pour ce qui est supprimé : sa distance à ce qui le remplace ; pour un trou rempli : sa largeur ; pour de mauvais quadrangles : leur plus petit côté</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Garder</translation>
+    </message>
+    <message>
+        <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>
+        <translation>Dans le prochain maillage, les faces et arêtes sélectionnées ici ou dans la vue 3D gardent leurs propres nœuds</translation>
+    </message>
+    <message>
+        <source>Suppress</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message>
+        <source>The selected faces and edges are no longer kept: where they are small, they may be suppressed or crossed in the next mesh</source>
+        <translation>Les faces et arêtes sélectionnées ne sont plus gardées : là où elles sont petites, elles peuvent être supprimées ou traversées dans le prochain maillage</translation>
+    </message>
+    <message>
+        <source>to be kept</source>
+        <translation>à garder</translation>
+    </message>
+    <message>
+        <source>it is {} long</source>
+        <translation>sa longueur est {}</translation>
+    </message>
+    <message>
+        <source>its sides meet at {} degrees at {}</source>
+        <translation>ses côtés font {} degrés en {}</translation>
+    </message>
+    <message>
+        <source>{} comes within {} of itself</source>
+        <translation>{} s'approche d'elle-même à {}</translation>
+    </message>
+    <message>
+        <source>{} and {} come within {} of each other</source>
+        <translation>{} et {} s'approchent à {}</translation>
+    </message>
+    <message>
+        <source>a loop of {} would be too small for elements</source>
+        <translation>une boucle de {} serait trop petite pour des éléments</translation>
+    </message>
+    <message>
+        <source>{} is so narrow that it would lose much of its area</source>
+        <translation>{} est si étroite qu'elle perdrait une grande part de son aire</translation>
+    </message>
+    <message>
+        <source>two edges of {} would share their nodes</source>
+        <translation>deux arêtes de {} partageraient leurs nœuds</translation>
+    </message>
+    <message>
+        <source>a node is placed at its boundary</source>
+        <translation>un nœud est placé sur son bord</translation>
+    </message>
+    <message>
+        <source>its long sides are not everywhere close together</source>
+        <translation>ses longs côtés ne sont pas partout proches</translation>
+    </message>
+    <message>
+        <source>{} has no valid mesh without it</source>
+        <translation>{} n'a pas de maillage valable sans elle</translation>
     </message>
 </context>
 <context>

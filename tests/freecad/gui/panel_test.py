@@ -28,7 +28,7 @@ from quadrille.document import links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import background, commands, overlays, preferences
+from quadrille.gui import background, commands, findings_table, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -284,9 +284,9 @@ class PanelTest(GuiCase):
         groups = {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups}
         gone = [name for name in found if name.startswith("Edge") and name not in groups and part.Shape.getElement(name).Length > 30]
         self.assertTrue(gone, found)
-        self.assertIn("suppressed, as it is small: ", found[gone[0]][0])
+        self.assertIn("too small: ", found[gone[0]][0])
         self.assertGreater(float(found[gone[0]][1]), 0)
-        distances = [float(entry[1]) for entry in found.values() if entry[1] and "suppressed" in entry[0]]
+        distances = [float(entry[1]) for entry in found.values() if entry[1] and "too small" in entry[0]]
         self.assertEqual(distances, sorted(distances, reverse=True))
         self.click_finding(gone[0])
         self.assertEqual(self.selected(), [gone[0]])
@@ -1056,15 +1056,20 @@ class PanelTest(GuiCase):
         files = sorted(folder.glob("*.ts"))
         self.assertEqual([file.name for file in files], ["Quadrille_de.ts", "Quadrille_fr.ts"])
         for file in files:
-            for message in ElementTree.parse(file).getroot().iter("message"):
-                translation = message.find("translation")
-                source = message.find("source").text
-                self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
-                self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
+            compiled = QtCore.QTranslator()
+            self.assertTrue(compiled.load(str(file.with_suffix(".qm"))), f"{file.name}: scripts/translations.sh compiles it")
+            for context in ElementTree.parse(file).getroot().iter("context"):
+                for message in context.iter("message"):
+                    translation = message.find("translation")
+                    source = message.find("source").text
+                    self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
+                    self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
+                    self.assertEqual(compiled.translate(context.find("name").text, source), translation.text,
+                                     f"{file.name} has changed: scripts/translations.sh compiles it")
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
         for entry in commands.COMMANDS.values():
             self.assertLessEqual({entry.text, entry.tip}, marked)
-        self.assertLessEqual(set(state.STATUSES), marked)
+        self.assertLessEqual(set(state.STATUSES) | set(findings_table.SENTENCES), marked)
         self.assertLessEqual({setting["label"] for setting in SETTINGS if setting["label"]}, marked)
 
     def test_each_command_has_icon_tip_and_shortcut(self):

@@ -203,6 +203,7 @@ def measures(element) -> List[float]:
 
 
 def has_element(shape, name: str) -> bool:
+    """Whether a shape has the face, edge or vertex of this name."""
     kind = name.rstrip("0123456789")
     return kind in _KINDS and 1 <= int(name[len(kind):] or 0) <= len(getattr(shape, _KINDS[kind]))
 

@@ -9,7 +9,6 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..core.errors import Error
-from ..core.units import digits
 from ..document import picks
 from ..document.findings import findings_of
 from ..document.state import source_of
@@ -28,6 +27,16 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Quadrille", "joined with {}: facets"),
     QT_TRANSLATE_NOOP("Quadrille", "crossed: covered by quads whose centers lie on its neighbors"),
     QT_TRANSLATE_NOOP("Quadrille", "no edge or angle there is too small; the mesh itself is irregular there"),
+    QT_TRANSLATE_NOOP("Quadrille", "it is {} long"),
+    QT_TRANSLATE_NOOP("Quadrille", "its sides meet at {} degrees at {}"),
+    QT_TRANSLATE_NOOP("Quadrille", "{} comes within {} of itself"),
+    QT_TRANSLATE_NOOP("Quadrille", "{} and {} come within {} of each other"),
+    QT_TRANSLATE_NOOP("Quadrille", "a loop of {} would be too small for elements"),
+    QT_TRANSLATE_NOOP("Quadrille", "{} is so narrow that it would lose much of its area"),
+    QT_TRANSLATE_NOOP("Quadrille", "two edges of {} would share their nodes"),
+    QT_TRANSLATE_NOOP("Quadrille", "a node is placed at its boundary"),
+    QT_TRANSLATE_NOOP("Quadrille", "its long sides are not everywhere close together"),
+    QT_TRANSLATE_NOOP("Quadrille", "{} has no valid mesh without it"),
 )
 
 
@@ -54,7 +63,7 @@ def _left_out(found: Dict[str, List[Any]]) -> Iterable[Row]:
             "Quadrille", "hole in {} that is filled")
         yield Row(tuple(hole["faces"] or hole["in"]), text.format(", ".join(hole["in"])), hole["diameter"])
     for feature in found["suppressed_features"]:
-        yield Row((feature["name"],), translate("Quadrille", "suppressed, as it is small: {} stands for it").format(feature["to"]),
+        yield Row((feature["name"],), translate("Quadrille", "too small: {} stands for it").format(feature["to"]),
                   feature["distance"])
 
 
@@ -89,7 +98,7 @@ class FindingsTable(QtGui.QWidget):
         self._rows: List[Row] = []  # these, and what is only to be kept
         self._kept: Sequence[str] = ()
         self.table = table("QuadrilleFindings", 3, 1, _MOST_HEIGHT)
-        self.table.setHorizontalHeaderLabels([translate("Quadrille", "Where"), translate("Quadrille", "What happened, and why"), "mm"])
+        self.table.setHorizontalHeaderLabels([translate("Quadrille", "Where"), translate("Quadrille", "What, and why"), "mm"])
         self.table.horizontalHeaderItem(2).setToolTip(translate(
             "Quadrille", "Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their "
             "shortest side"))
@@ -138,7 +147,7 @@ class FindingsTable(QtGui.QWidget):
     def _texts(self, row: Row) -> Tuple[str, str, str]:
         more = f" (+{len(row.names) - 1})" if len(row.names) > 1 else ""
         kept = [translate("Quadrille", "to be kept")] if set(row.names) & set(self._kept) else []
-        return row.names[0] + more, "; ".join(kept + [row.text] * bool(row.text)), digits(row.distance) if row.distance else ""
+        return row.names[0] + more, "; ".join(kept + [row.text] * bool(row.text)), f"{row.distance:.3g}" if row.distance else ""
 
     def _selected(self) -> List[str]:
         return [name for index in self.table.selectionModel().selectedRows() for name in self._rows[index.row()].names]
@@ -166,7 +175,7 @@ class FindingsTable(QtGui.QWidget):
         if len(rows) == 1 and self._rows[rows[0].row()].forces and self._show_poor(names[0]):
             return
         if box is not None and not camera.is_in_sight(self._mesh, box.Center, box.DiagonalLength):
-            camera.look_at(self._mesh, box.Center, max(4 * box.DiagonalLength, 20 * self._mesh.LeastSize, 1e-3))
+            camera.look_at(self._mesh, box.Center, 8 * box.DiagonalLength or 20 * self._mesh.LeastSize or 1.0)
 
     def _keep(self, keep: Callable[[Sequence[str], bool], None], on: bool) -> None:
         names = mesh_clicks.picked_on(self._mesh, "Face", "Edge")

@@ -217,15 +217,15 @@ def _dotted(points: np.ndarray, counts: Sequence[int], width: int) -> list:
     return [light, color, style, _coordinates(points), lines]
 
 
-def _label(place, text: str) -> list:
-    """A text at a place, as large from near as from far."""
+def _label(place, text: str, beside: bool = False) -> list:
+    """A text at a place, as large from near as from far: centered there, or to the right of it."""
     from pivy import coin
 
     shift, font, words = coin.SoTranslation(), coin.SoFont(), coin.SoText2()
     shift.translation.setValue(*place)
     font.size = 20
     words.string.setValue(text)
-    words.justification = coin.SoText2.CENTER
+    words.justification = coin.SoText2.LEFT if beside else coin.SoText2.CENTER
     return [shift, font, words]
 
 
@@ -244,7 +244,8 @@ def mark(mesh, shape, names: Sequence[str]):
     dots.pointSize = 9
     in_front = coin.SoAnnotation()
     box = FreeCAD.BoundBox()
-    for node in (*_dotted(np.array(sum(lines, [])).reshape(-1, 3), [len(line) for line in lines if line], 5), dots):
+    points = np.array([point for line in lines for point in line]).reshape(-1, 3)
+    for node in (*_dotted(points, [len(line) for line in lines if line], 5), dots):
         in_front.addChild(node)
     for name, element in elements.items():
         box.add(element.BoundBox)
@@ -252,7 +253,7 @@ def mark(mesh, shape, names: Sequence[str]):
         if name.startswith("Vertex"):
             one.addChild(_coordinates(np.array([tuple(element.Point)])))
             one.addChild(coin.SoPointSet())
-        for node in _label(element.BoundBox.Center, name):
+        for node in _label(element.BoundBox.Center, f"  {name}", True):
             one.addChild(node)
         in_front.addChild(one)
     _add(mesh, MARKS, _group(in_front))
