@@ -803,6 +803,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>{} has no valid mesh without it</source>
         <translation>{} hat ohne sie kein gültiges Netz</translation>
     </message>
+    <message>
+        <source>{} more that do less harm</source>
+        <translation>{} weitere, die weniger schaden</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -803,6 +803,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>{} has no valid mesh without it</source>
         <translation>{} n'a pas de maillage valable sans elle</translation>
     </message>
+    <message>
+        <source>{} more that do less harm</source>
+        <translation>{} autres, moins nuisibles</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 from xml.etree import ElementTree
 
@@ -24,7 +25,7 @@ from case import MODELS, GuiCase, picture, run, type_into
 from driver import Boxes, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS, MeshSettings
-from quadrille.document import links, state
+from quadrille.document import findings, links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
@@ -228,7 +229,7 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertEqual(mesh.Keep, ["Edge7", "Edge12"])
 
-    def findings(self):
+    def found(self):
         """The texts in the table of findings, by name."""
         table = find("QuadrilleFindings")
         rows = range(table.rowCount() if table.isVisible() else 0)
@@ -254,18 +255,18 @@ class PanelTest(GuiCase):
         self.show()
         mesh = self.open_panel(part)
         self.press_mesh()
-        self.assertIn("Edge2", self.findings())
+        self.assertIn("Edge2", self.found())
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
         self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
         picture("crossed")
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.CROSSED))
         self.edit(mesh)
-        self.assertEqual(self.findings()["Edge2"], ("smooth edge that quads cross; on Face1", ""))  # told when the panel opens again
+        self.assertEqual(self.found()["Edge2"], ("smooth edge that quads cross; on Face1", ""))  # told when the panel opens again
         find("QuadrilleMore").setChecked(True)
         find("QuadrilleKeepFeatures").setChecked(True)
         self.press_mesh()
-        self.assertNotIn("Edge2", self.findings())
+        self.assertNotIn("Edge2", self.found())
         close_panel()
 
     def stepped(self):
@@ -280,7 +281,7 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(part)
         type_into("QuadrilleSize", "5 mm")
         self.press_mesh()
-        found = self.findings()
+        found = self.found()
         groups = {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups}
         gone = [name for name in found if name.startswith("Edge") and name not in groups and part.Shape.getElement(name).Length > 30]
         self.assertTrue(gone, found)
@@ -301,17 +302,17 @@ class PanelTest(GuiCase):
         self.click_finding(gone[0])
         find("QuadrilleKeep").click()
         process(0.2)
-        self.assertIn("to be kept", self.findings()[gone[0]][0])
+        self.assertIn("to be kept", self.found()[gone[0]][0])
         wait_for(lambda: find("QuadrilleStatus").text() == state.SETTINGS_CHANGED, what="the status")
         self.press_mesh()
         self.assertEqual(mesh.Keep, [gone[0]])
         self.assertIn(gone[0], {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups})
-        self.assertEqual(self.findings()[gone[0]][0].partition(";")[0], "to be kept")
+        self.assertEqual(self.found()[gone[0]][0].partition(";")[0], "to be kept")
         picture("finding_kept")
         # What is clicked on the model is kept as well, and suppressed again.
         self.select(part, "Face1")
         find("QuadrilleKeep").click()
-        self.assertEqual(self.findings()["Face1"][0].partition(";")[0], "to be kept")
+        self.assertEqual(self.found()["Face1"][0].partition(";")[0], "to be kept")
         self.select(part, "Face1", gone[0])
         find("QuadrilleSuppress").click()
         self.press_mesh()
@@ -323,6 +324,35 @@ class PanelTest(GuiCase):
         self.assertEqual(boxes.texts, ["Select them on Stepped in the 3-D view first."])
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.MARKS))
+        # The command Mesh quality has the same table.
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(mesh)
+        trigger("Quadrille_Quality")
+        self.select(part, short, gone[0])
+        find("QuadrilleKeep").click()
+        self.assertEqual((mesh.Keep, mesh.Status), ([short, gone[0]], state.SETTINGS_CHANGED))
+        self.select(part, short)
+        find("QuadrilleSuppress").click()
+        self.assertEqual(mesh.Keep, [gone[0]])
+        self.document.undo()
+        self.assertEqual(mesh.Keep, [short, gone[0]])
+        close_panel()
+
+    def test_long_lists_of_findings_are_cut(self):
+        small = [{"name": f"Edge{number}", "to": "Vertex1", "distance": 0.001 * number} for number in range(1, 1001)]
+        poor = {"name": "Face1", "quads": 2, "shortest": 0.1, "forced": True, "cause": "short edge", "why": "it is 0.1 long"}
+        text = findings.as_text({"suppressed_features": small, "poor_quads": [poor]})
+        rows = findings_table.rows_of(SimpleNamespace(Findings=text))
+        self.assertEqual(len(rows), findings_table.MOST_ROWS + 2)
+        self.assertEqual((rows[0].names, rows[-2].text), (("Edge1000",), "800 more that do less harm"))
+        self.assertEqual(rows[-1], findings_table.Row(("Face1",), "poor quads: 2; it is 0.1 long", 0.1, True))
+        mesh = quadrille.freecad.mesh_object(self.box(), size=5)
+        mesh.Findings = text
+        self.edit(mesh)
+        self.assertEqual(find("QuadrilleFindings").rowCount(), len(rows))
+        find("QuadrilleFindings").selectRow(len(rows) - 2)
+        self.assertEqual(self.selected(), [])
+        close_panel()
 
     def test_a_click_on_the_model_selects_its_row(self):
         part = self.stepped()
@@ -353,7 +383,7 @@ class PanelTest(GuiCase):
         mesh = self.open_panel(part)
         type_into("QuadrilleSize", "4 mm")
         self.press_mesh()
-        cause = next(name for name, (text, _) in self.findings().items() if "poor quads" in text)
+        cause = next(name for name, (text, _) in self.found().items() if "poor quads" in text)
         camera = FreeCADGui.activeDocument().activeView().getCameraNode()
         before = camera.height.getValue()
         self.click_finding(cause)

@@ -17,6 +17,8 @@ from .tables import fill, table
 
 #: The height of the table at most, in pixels: more rows scroll.
 _MOST_HEIGHT = 190
+#: How many findings of each kind are listed at most.
+MOST_ROWS = 200
 #: Names and numbers in the mesher's sentences: what differs between sentences with the same translation.
 _VARYING = re.compile(r"(?:Face|Edge|Vertex)\d+|\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 #: The mesher's sentences, with {} for each name and number.
@@ -43,7 +45,7 @@ SENTENCES = (
 class Row(NamedTuple):
     """One finding."""
 
-    names: Tuple[str, ...]  #: faces, edges or vertices of the part
+    names: Tuple[str, ...]  #: faces, edges or vertices of the part; none in a row that stands for others
     text: str  #: what happened, and why
     distance: float = 0.0  #: mm; 0 = does not apply
     forces: bool = False  #: whether quads there are poor
@@ -53,8 +55,15 @@ def rows_of(mesh) -> List[Row]:
     """The findings of a mesh, the most harmful first: what was left out, by its distance; what forces poor quads, by their number;
     what is crossed or joined; and what was kept although it is small."""
     found = findings_of(mesh)
-    return [*sorted(_left_out(found), key=lambda row: -row.distance), *_poor(found), *_crossed(found), *(
-        Row((kept["name"],), translate("Quadrille", "small, but meshed: {}").format(_told(kept["why"]))) for kept in found["kept"])]
+    kept = [Row((entry["name"],), translate("Quadrille", "small, but meshed: {}").format(_told(entry["why"]))) for entry in found["kept"]]
+    lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept)
+    return [row for rows in lists for row in _first(rows)]
+
+
+def _first(rows: List[Row]) -> List[Row]:
+    """Thousands of rows would make the panel slow."""
+    more = translate("Quadrille", "{} more that do less harm").format(len(rows) - MOST_ROWS)
+    return rows if len(rows) <= MOST_ROWS else [*rows[:MOST_ROWS], Row((), more)]
 
 
 def _left_out(found: Dict[str, List[Any]]) -> Iterable[Row]:
@@ -147,7 +156,7 @@ class FindingsTable(QtGui.QWidget):
     def _texts(self, row: Row) -> Tuple[str, str, str]:
         more = f" (+{len(row.names) - 1})" if len(row.names) > 1 else ""
         kept = [translate("Quadrille", "to be kept")] if set(row.names) & set(self._kept) else []
-        return row.names[0] + more, "; ".join(kept + [row.text] * bool(row.text)), f"{row.distance:.3g}" if row.distance else ""
+        return "".join(row.names[:1]) + more, "; ".join(kept + [row.text] * bool(row.text)), f"{row.distance:.3g}" if row.distance else ""
 
     def _selected(self) -> List[str]:
         return [name for index in self.table.selectionModel().selectedRows() for name in self._rows[index.row()].names]

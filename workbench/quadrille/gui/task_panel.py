@@ -422,7 +422,6 @@ class MeshPanel:
     def _keep(self, names: Sequence[str], on: bool) -> Sequence[str]:
         """Adds faces and edges to those to keep, or takes them away. Returns all that are to be kept."""
         self.entries.keep(names, on)
-        self.form.findChild(QtGui.QToolButton, "QuadrilleRefinements").setChecked(True)
         return self.entries.names()
 
     def _divide_selection(self) -> None:
