@@ -737,7 +737,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>What, and why</source>
-        <translation>Quoi, et pourquoi</translation>
+        <translation>Quoi, pourquoi</translation>
     </message>
     <message>
         <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>

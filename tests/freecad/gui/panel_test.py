@@ -478,7 +478,13 @@ class PanelTest(GuiCase):
                 if isinstance(widget, QtGui.QTableWidget):
                     self.assertLessEqual(widget.horizontalHeader().length(), widget.viewport().width())
                     for column in range(widget.columnCount()):
-                        self.assertLessEqual(widget.sizeHintForColumn(column), widget.columnWidth(column))
+                        if widget.horizontalHeader().sectionResizeMode(column) != QtGui.QHeaderView.Stretch:
+                            self.assertLessEqual(widget.sizeHintForColumn(column), widget.columnWidth(column))
+                            continue
+                        for row in range(widget.rowCount()):  # texts wrap
+                            self.assertLessEqual(widget.sizeHintForRow(row), widget.rowHeight(row))
+                            for word in widget.item(row, column).text().split():
+                                self.assertLess(widget.fontMetrics().boundingRect(word).width(), widget.columnWidth(column) - 4, word)
                 if isinstance(widget, (QtGui.QLabel, QtGui.QAbstractButton)) and widget.text() and \
                         not getattr(widget, "wordWrap", lambda: False)():
                     self.assertGreaterEqual(widget.width(), widget.minimumSizeHint().width(), widget.text())
