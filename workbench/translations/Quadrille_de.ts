@@ -807,6 +807,142 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>{} more that do less harm</source>
         <translation>{} weitere, die weniger schaden</translation>
     </message>
+    <message>
+        <source>{}: which face, edge or vertex of {} {} was ({}) cannot be identified since the part was changed: choose it again</source>
+        <translation>{}: welche Fläche, Kante oder Ecke von {} {} war ({}), ist seit der Änderung des Teils nicht mehr zu erkennen: neu wählen</translation>
+    </message>
+    <message>
+        <source>{}: {} is no longer on its surface</source>
+        <translation>{}: {} liegt nicht mehr auf seiner Oberfläche</translation>
+    </message>
+    <message>
+        <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
+        <translation>{}: {}; bis dahin Flächen, Kanten und Ecken am Teil wählen</translation>
+    </message>
+    <message>
+        <source>select the faces, edges or vertices to refine</source>
+        <translation>die Flächen, Kanten oder Ecken wählen, die verfeinert werden sollen</translation>
+    </message>
+    <message>
+        <source>a refinement needs a size larger than 0, not {}</source>
+        <translation>eine Verfeinerung braucht eine Größe über 0, nicht {}</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is too small for a part of {:.3g} mm</source>
+        <translation>eine Größe von {:.3g} mm ist zu klein für ein Teil von {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is larger than the model, whose diagonal is {:.3g} mm</source>
+        <translation>eine Größe von {:.3g} mm ist größer als das Modell, dessen Diagonale {:.3g} mm hat</translation>
+    </message>
+    <message>
+        <source>{}: the part has no such face to flip</source>
+        <translation>{}: das Teil hat keine solche Fläche zum Umkehren</translation>
+    </message>
+    <message>
+        <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
+        <translation>die Normalen sind nicht umkehrbar: das Teil hat Kanten oder Ecken, die zu keiner Fläche gehören</translation>
+    </message>
+    <message>
+        <source>{}.{}: is not in the meshed part</source>
+        <translation>{}.{}: gehört nicht zum vernetzten Teil</translation>
+    </message>
+    <message>
+        <source>Solid{}: is not in the meshed part</source>
+        <translation>Solid{}: gehört nicht zum vernetzten Teil</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone</source>
+        <translation>{}: das Teil, das es vernetzt, ist weg</translation>
+    </message>
+    <message>
+        <source>{}: has no shape to mesh</source>
+        <translation>{}: hat keine Form zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: its shape has no faces to mesh</source>
+        <translation>{}: seine Form hat keine Flächen zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: a mesh region needs a length larger than 0</source>
+        <translation>{}: ein Netzbereich braucht eine Länge über 0</translation>
+    </message>
+    <message>
+        <source>{}: its sizes from results cannot be read ({}): switch {} off</source>
+        <translation>{}: seine Größen aus Ergebnissen sind nicht lesbar ({}): {} ausschalten</translation>
+    </message>
+    <message>
+        <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
+        <translation>{}: SizeField ist gesetzt, und die Größen aus Ergebnissen würden es ersetzen: zuerst leeren</translation>
+    </message>
+    <message>
+        <source>{}: is not in an analysis: add it to one, and solve that first</source>
+        <translation>{}: ist in keiner Analyse: zu einer hinzufügen, und diese zuerst lösen</translation>
+    </message>
+    <message>
+        <source>{}: has no result with displacements: solve it with {} first</source>
+        <translation>{}: hat kein Ergebnis mit Verschiebungen: zuerst mit {} lösen</translation>
+    </message>
+    <message>
+        <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
+        <translation>{}: seine Knoten sind verschoben: DisplaceMesh von {} auf false setzen und neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
+        <translation>{}: hat nur Ergebnisse in der Mitte der Schale: {} von {} auf true setzen und neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: has no shell elements: an element has {} nodes</source>
+        <translation>{}: hat keine Schalenelemente: ein Element hat {} Knoten</translation>
+    </message>
+    <message>
+        <source>{}: has no displacements: solve again</source>
+        <translation>{}: hat keine Verschiebungen: neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: is being meshed already; wait for it, or cancel it first</source>
+        <translation>{}: wird schon vernetzt; darauf warten oder es zuerst abbrechen</translation>
+    </message>
+    <message>
+        <source>{}: has no face {} to flip</source>
+        <translation>{}: hat keine Fläche {} zum Umkehren</translation>
+    </message>
+    <message>
+        <source>{}: {}; nothing was exported</source>
+        <translation>{}: {}; nichts wurde exportiert</translation>
+    </message>
+    <message>
+        <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
+        <translation>{}: der Vernetzer liefert jetzt ein anderes Netz (andere Version, oder das Teil wurde neu berechnet und weicht um Rundung ab): neu vernetzen, dann exportieren</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written: {}</source>
+        <translation>{}: kann nicht geschrieben werden: {}</translation>
+    </message>
+    <message>
+        <source>{}: is not a FEM analysis</source>
+        <translation>{}: ist keine FEM-Analyse</translation>
+    </message>
+    <message>
+        <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
+        <translation>{}: enthält schon das Netz {}, und FreeCAD löst mit nur einem Netz</translation>
+    </message>
+    <message>
+        <source>{}: has no solid; a middle surface is made of solids</source>
+        <translation>{}: hat keinen Festkörper; eine Mittelfläche entsteht aus Festkörpern</translation>
+    </message>
+    <message>
+        <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
+        <translation>{}: ist kein Netzobjekt; eines wählen, etwa eine importierte STL-Datei</translation>
+    </message>
+    <message>
+        <source>{}: has no triangles to mesh</source>
+        <translation>{}: hat keine Dreiecke zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
+        <translation>{}: mit Größe {:g} nicht zu vernetzen: sie muss über 0 sein</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -807,6 +807,142 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>{} more that do less harm</source>
         <translation>{} autres, moins nuisibles</translation>
     </message>
+    <message>
+        <source>{}: which face, edge or vertex of {} {} was ({}) cannot be identified since the part was changed: choose it again</source>
+        <translation>{} : depuis la modification de la pièce, on ne sait plus quelle face, arête ou sommet de {} était {} ({}) : choisir de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: {} is no longer on its surface</source>
+        <translation>{} : {} n&apos;est plus sur sa surface</translation>
+    </message>
+    <message>
+        <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
+        <translation>{} : {} ; en attendant, choisir ses faces, arêtes et sommets sur la pièce</translation>
+    </message>
+    <message>
+        <source>select the faces, edges or vertices to refine</source>
+        <translation>sélectionner les faces, arêtes ou sommets à raffiner</translation>
+    </message>
+    <message>
+        <source>a refinement needs a size larger than 0, not {}</source>
+        <translation>un raffinement demande une taille supérieure à 0, et non {}</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is too small for a part of {:.3g} mm</source>
+        <translation>une taille de {:.3g} mm est trop petite pour une pièce de {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is larger than the model, whose diagonal is {:.3g} mm</source>
+        <translation>une taille de {:.3g} mm dépasse le modèle, dont la diagonale est de {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>{}: the part has no such face to flip</source>
+        <translation>{} : la pièce n&apos;a pas cette face à inverser</translation>
+    </message>
+    <message>
+        <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
+        <translation>les normales ne peuvent être inversées : la pièce a des arêtes ou sommets sans face</translation>
+    </message>
+    <message>
+        <source>{}.{}: is not in the meshed part</source>
+        <translation>{}.{} : n&apos;est pas dans la pièce maillée</translation>
+    </message>
+    <message>
+        <source>Solid{}: is not in the meshed part</source>
+        <translation>Solid{} : n&apos;est pas dans la pièce maillée</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone</source>
+        <translation>{} : la pièce maillée n&apos;existe plus</translation>
+    </message>
+    <message>
+        <source>{}: has no shape to mesh</source>
+        <translation>{} : n&apos;a pas de forme à mailler</translation>
+    </message>
+    <message>
+        <source>{}: its shape has no faces to mesh</source>
+        <translation>{} : sa forme n&apos;a pas de faces à mailler</translation>
+    </message>
+    <message>
+        <source>{}: a mesh region needs a length larger than 0</source>
+        <translation>{} : une région de maillage demande une longueur supérieure à 0</translation>
+    </message>
+    <message>
+        <source>{}: its sizes from results cannot be read ({}): switch {} off</source>
+        <translation>{} : ses tailles tirées des résultats sont illisibles ({}) : désactiver {}</translation>
+    </message>
+    <message>
+        <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
+        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l&apos;effacer d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: is not in an analysis: add it to one, and solve that first</source>
+        <translation>{} : n&apos;est dans aucune analyse : l&apos;ajouter à une analyse, et la résoudre d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: has no result with displacements: solve it with {} first</source>
+        <translation>{} : n&apos;a pas de résultat avec déplacements : résoudre d&apos;abord avec {}</translation>
+    </message>
+    <message>
+        <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
+        <translation>{} : ses nœuds sont déplacés : mettre DisplaceMesh de {} à false, et résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
+        <translation>{} : n&apos;a de résultats qu&apos;au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: has no shell elements: an element has {} nodes</source>
+        <translation>{} : n&apos;a pas d&apos;éléments coques : un élément a {} nœuds</translation>
+    </message>
+    <message>
+        <source>{}: has no displacements: solve again</source>
+        <translation>{} : n&apos;a pas de déplacements : résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: is being meshed already; wait for it, or cancel it first</source>
+        <translation>{} : est déjà en cours de maillage ; attendre, ou l&apos;annuler d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: has no face {} to flip</source>
+        <translation>{} : n&apos;a pas de face {} à inverser</translation>
+    </message>
+    <message>
+        <source>{}: {}; nothing was exported</source>
+        <translation>{} : {} ; rien n&apos;a été exporté</translation>
+    </message>
+    <message>
+        <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
+        <translation>{} : le mailleur donne maintenant un autre maillage (sa version a changé, ou la pièce recalculée diffère par les arrondis) : mailler de nouveau, puis exporter</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written: {}</source>
+        <translation>{} : ne peut être écrit : {}</translation>
+    </message>
+    <message>
+        <source>{}: is not a FEM analysis</source>
+        <translation>{} : n&apos;est pas une analyse FEM</translation>
+    </message>
+    <message>
+        <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
+        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu&apos;avec un seul</translation>
+    </message>
+    <message>
+        <source>{}: has no solid; a middle surface is made of solids</source>
+        <translation>{} : n&apos;a pas de solide ; une surface moyenne se fait à partir de solides</translation>
+    </message>
+    <message>
+        <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
+        <translation>{} : n&apos;est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
+    </message>
+    <message>
+        <source>{}: has no triangles to mesh</source>
+        <translation>{} : n&apos;a pas de triangles à mailler</translation>
+    </message>
+    <message>
+        <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
+        <translation>{} : ne peut être maillé à la taille {:g} : elle doit être supérieure à 0</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

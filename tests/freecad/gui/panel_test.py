@@ -1063,9 +1063,9 @@ class PanelTest(GuiCase):
         self.assertTrue(pages and pages[0], "the page is in FreeCAD's dialog")
 
     def test_languages(self):
-        for language, mesh_word, command_word, status, words in (
-                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Aus Auswahl", "Größenvorschau", "Ärgste")),
-                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Sélection", "Aperçu des tailles", "Pire"))):
+        for language, mesh_word, command_word, status, error, words in (
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", "ist größer als das Modell", ("Aus Auswahl", "Größenvorschau", "Ärgste")),
+                ("French", "Mailler", "Maillage de quadrangles", "à jour", "dépasse le modèle", ("Sélection", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
                 try:
@@ -1078,6 +1078,8 @@ class PanelTest(GuiCase):
                                       find("QuadrilleCriteria").horizontalHeaderItem(2).text()), words)
                     self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
                     picture(f"panel_{language}")
+                    type_into("QuadrilleSize", "1e300 mm")
+                    self.assertIn(error, self.error_of("Size"))
                     type_into("QuadrilleSize", "2,5 mm")
                     close_panel()
                     self.assertEqual(mesh.Size.Value, 2.5)
@@ -1102,6 +1104,9 @@ class PanelTest(GuiCase):
                     self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
                     self.assertEqual(compiled.translate(context.find("name").text, source), translation.text,
                                      f"{file.name} has changed: scripts/translations.sh compiles it")
+        for room in ("document", "features", "gui"):
+            for source in (folder.parent / "quadrille" / room).glob("*.py"):
+                self.assertNotRegex(source.read_text(encoding="utf-8"), r'[ (]Error\(\s*f?"', f"{source}: translate errors")
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
         for entry in commands.COMMANDS.values():
             self.assertLessEqual({entry.text, entry.tip}, marked)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.arrays import faces_of, nodes_of
 from ..core.errors import Error
-from . import groups, shapes, state
+from . import groups, shapes, state, translate
 
 #: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
 Pick = Tuple[Any, str]
@@ -65,7 +65,8 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
             inner = ".".join(pick[1].split(".")[path.index(part) - len(path):])
             found = shapes.find_element(part.Shape, part.getSubObject(inner))
             if found is None:
-                raise Error(f"{part.Label}: {pick[1]} is no longer on its surface", "usage", pick[1])
+                raise Error(translate(
+                    "Quadrille", "{}: {} is no longer on its surface").format(part.Label, pick[1]), "usage", pick[1])
             name = found
         if name not in names:
             names.append(name)
@@ -148,7 +149,9 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
     FreeCAD 0.20 names elements other than those that were clicked, so it is found by the point. Raises Error if the part has
     changed since it was meshed."""
     if mesh.Status in OTHER_PART:
-        raise Error(f"{mesh.Label}: {mesh.Status}; until then, pick its faces, edges and vertices on the part", "usage",
+        raise Error(translate(
+            "Quadrille", "{}: {}; until then, pick its faces, edges and vertices on the part").format(
+                mesh.Label, translate("QuadrilleStatus", mesh.Status)), "usage",
                     mesh.Name)
     element, quad, ends, at = _nearest(mesh, point)
     if not element:
