@@ -1064,7 +1064,8 @@ class PanelTest(GuiCase):
 
     def test_languages(self):
         for language, mesh_word, command_word, status, error, words in (
-                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", "ist größer als das Modell", ("Aus Auswahl", "Größenvorschau", "Ärgste")),
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", "größer als das Modell",
+                 ("Aus Auswahl", "Größenvorschau", "Ärgste")),
                 ("French", "Mailler", "Maillage de quadrangles", "à jour", "dépasse le modèle", ("Sélection", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
