@@ -240,7 +240,7 @@ TEST(Command, RefusesElementsThatMemoryHasNoRoomFor) {
   const TemporaryFolder folder;
   const auto run = [&](const char* size) {
     return test::run(
-        fmt::format("cd {} && ulimit -v 2000000 && {} mesh {} -o out.msh --quiet --order 2 --size {} 2>&1",
+        fmt::format("cd {} && ulimit -v 1500000 && {} mesh {} -o out.msh --quiet --order 2 --size {} 2>&1",
                     folder.path().string(), program, box, size));
   };
   const auto large = run("0.015");
