@@ -146,7 +146,8 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
       reach_(reach),
       slivers_(find_slivers(shape, used, reach)),
       edges_(shape.edges.size()),
-      kept_faces_(shape.faces.size()) {
+      kept_faces_(shape.faces.size()),
+      own_(wanted_fine) {
   if (!(reach > 0)) return;
   EdgeFlags fine = wanted_fine;
   hold(held, fine);
@@ -180,7 +181,7 @@ void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine
 }
 
 TinyFeatures SuppressedFeatures::find(double length) const {
-  return find_tiny_features(shape_, used_, edges_, length, {&slivers_, &kept_faces_});
+  return find_tiny_features(shape_, used_, edges_, length, {&slivers_, &kept_faces_, &own_});
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.

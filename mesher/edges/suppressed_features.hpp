@@ -16,7 +16,8 @@ namespace quadrille {
 class SuppressedFeatures {
  public:
   /// \param used 1 = the face is meshed. \param reach model units; 0 = nothing is suppressed.
-  /// \param fine 1 = must not become a point; a face with only such edges does not become an edge either.
+  /// \param fine 1 = must not become a point; a face with only such edges does not become an edge either,
+  /// and no such edge gets the nodes of another.
   /// \param held vertices that share their nodes with no other: edges that end there and faces around them
   /// stay.
   SuppressedFeatures(const CadShape& shape, const FaceFlags& used, double reach, const EdgeFlags& fine,
@@ -49,6 +50,7 @@ class SuppressedFeatures {
   std::vector<Sliver> slivers_;
   EdgeFlags edges_;       // 1 = becomes a point
   FaceFlags kept_faces_;  // 1 = must not become an edge
+  EdgeFlags own_;         // 1 = keeps its nodes
   std::map<EdgeId, std::string> kept_edges_;
   std::map<FaceId, std::string> reasons_;
 };

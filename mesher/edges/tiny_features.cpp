@@ -61,8 +61,9 @@ class Finder {
     if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open) ||
         std::any_of(sliver.rims.begin(), sliver.rims.end(), is_left))
       return;
-    if (std::any_of(sliver.pairs.begin(), sliver.pairs.end(),
-                    [&](const Sliver::Pair& pair) { return !is_left(pair.edge) || !is_left(pair.other); }))
+    if (std::any_of(sliver.pairs.begin(), sliver.pairs.end(), [&](const Sliver::Pair& pair) {
+          return !is_left(pair.edge) || !is_left(pair.other) || keep_apart(pair.edge, pair.other);
+        }))
       return;
     for (const auto& [a, b] : sliver.ties) join(a, b);
     for (const Sliver::Pair& pair : sliver.pairs) share(pair.edge, pair.other, pair.reversed);
@@ -76,11 +77,20 @@ class Finder {
     return {edge, reversed};
   }
 
+  bool owns(EdgeId edge) const { return slivers_.own != nullptr && (*slivers_.own)[edge]; }
+
+  /// Whether both edges, or those whose nodes they have so far, keep their own nodes.
+  bool keep_apart(EdgeId edge, EdgeId other) const {
+    const EdgeId a = lender(edge).first, b = lender(other).first;
+    return a != b && owns(a) && owns(b);
+  }
+
   /// Gives an edge, and those that share its nodes already, the nodes of another one.
   void share(EdgeId edge, EdgeId other, bool reversed) {
-    const auto [from, from_reversed] = lender(edge);
-    const auto [to, to_reversed] = lender(other);
+    auto [from, from_reversed] = lender(edge);
+    auto [to, to_reversed] = lender(other);
     if (from == to) return;
+    if (owns(to)) std::swap(from, to);
     tiny_.edges[to] = from;
     tiny_.reversed_edges[to] = static_cast<char>(reversed ^ from_reversed ^ to_reversed);
   }
@@ -104,7 +114,7 @@ class Finder {
                        tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
-    if (!(along || against) || !lies_along(a, b, length_)) return;
+    if (!(along || against) || !lies_along(a, b, length_) || keep_apart(left[0], left[1])) return;
     // Either direction fits the ends of two closed edges: the distances of points decide.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;

@@ -28,6 +28,7 @@ struct TinyFeatures {
 struct SliverChoice {
   const std::vector<Sliver>* slivers = nullptr;  ///< null = none
   const FaceFlags* kept = nullptr;               ///< 1 = must not become an edge; null = any may
+  const EdgeFlags* own = nullptr;  ///< 1 = keeps its nodes: others may share them; null = any may share
 };
 
 /// How often the faces that are left use the nodes of each edge; 0 for edges that have those of another.

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -231,6 +232,31 @@ TEST(SuppressedFeatures, KeepsFeaturesWhereSmallSizesAreNamed) {
 }
 
 /// What is kept on request is kept with all that hangs together with it.
+/// Whichever of the two sides of a bevel is named has nodes of its own, and both if both are named.
+TEST(SuppressedFeatures, NamedEdgesBesideOthersKeepTheirNodes) {
+  const CadModel block = beveled_block(0.1);
+  std::set<int> sides;
+  for (const auto& feature : mesh_of(block, 5, false).suppressed_features) {
+    using Kind = ShellMesh::SuppressedFeature::Kind;
+    if (feature.kind == Kind::edge && feature.to_kind == Kind::edge) sides = {feature.number, feature.to};
+  }
+  ASSERT_EQ(sides.size(), 2);
+  const auto with_nodes = [&](const std::set<int>& kept) {
+    MeshOptions options;
+    options.sizing.size = 5;
+    options.sizing.kept_edges = kept;
+    ExecutionContext context(1);
+    const ShellMesh found = mesh(block, options, context);
+    EXPECT_EQ(validate(found, true), std::vector<std::string>{});
+    std::set<int> result;
+    for (const auto& segment : found.segments)
+      if (sides.contains(segment.edge)) result.insert(segment.edge);
+    return result;
+  };
+  for (const int side : sides) EXPECT_EQ(with_nodes({side}), std::set{side});
+  EXPECT_EQ(with_nodes(sides), sides);
+}
+
 TEST(SuppressedFeatures, KeepsAroundAFaceOnRequest) {
   const CadModel block = beveled_block(0.1);
   const CadShape& shape = block.shape();
