@@ -62,9 +62,6 @@ remove() {
   fi
 }
 
-if [[ $mode == install ]] && command -v lrelease >/dev/null; then
-  "$here/scripts/translations.sh"
-fi
 for target in "${targets[@]}"; do
   addon="$target/Quadrille"
   if [[ $mode == uninstall ]]; then

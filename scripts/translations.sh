@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compiles the translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts).
+# Compiles the translations of the FreeCAD workbench (Qt Linguist: workbench/translations/Quadrille_LANGUAGE.ts), for those who
+# change them: the .qm files are in the repository, so that every copy of the addon has them.
 #
 #   scripts/translations.sh                     compiles them for FreeCAD (.qm)
 #   scripts/translations.sh --update [xx ...]   first updates the .ts files from the sources; xx: new languages
@@ -33,7 +34,7 @@ values = {node.targets[0].id: node.value.value for node in tree.body if isinstan
 for text in values.values():
     print(f"QT_TRANSLATE_NOOP({'QuadrilleStatus'!r}, {text!r})")
 PYTHON
-  sources=(InitGui.py quadrille/gui/*.py "$marks")
+  sources=(InitGui.py quadrille/{document,features,gui}/*.py "$marks")
   for file in translations/*.ts; do pylupdate5 -noobsolete "${sources[@]}" -ts "$file"; done
   sed -i '/<location /d' translations/*.ts
 fi

@@ -520,14 +520,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>erzwungen von {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
-        <translation>Glatte Kanten, die Vierecke kreuzen, in der Ansicht gepunktet und ohne Gruppe: {}; Behalten nennt Kanten, die bleiben</translation>
-    </message>
-    <message>
-        <source>Holes, pockets and bosses that are left out: {}</source>
-        <translation>Löcher, Taschen und Zapfen, die weggelassen sind: {}</translation>
-    </message>
-    <message>
         <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>das Netz liegt in keiner Analyse: im Baum in eine ziehen</translation>
     </message>
@@ -550,10 +542,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>Spannungen kommen nur aus der Mitte der Schale: Spannungen an der Oberfläche</translation>
-    </message>
-    <message>
-        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
-        <translation>Kanten und Flächen mit Vierecken außerhalb der Grenzen: {}</translation>
     </message>
     <message>
         <source>Missing before solving: {}</source>
@@ -694,6 +682,266 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
         <translation>{} hat {} Körper, die sich berühren oder schneiden. Dort verbinden (Verschneiden), so dass sie Knoten teilen?</translation>
+    </message>
+    <message>
+        <source>tiny: replaced by an edge or a node of its neighbors</source>
+        <translation>winzig: eine Kante oder ein Knoten der Nachbarn ersetzt sie</translation>
+    </message>
+    <message>
+        <source>in a filled hole</source>
+        <translation>in einem gefüllten Loch</translation>
+    </message>
+    <message>
+        <source>joined with {}: coplanar</source>
+        <translation>mit {} vereint: in einer Ebene</translation>
+    </message>
+    <message>
+        <source>joined with {}: facets</source>
+        <translation>mit {} vereint: Facetten</translation>
+    </message>
+    <message>
+        <source>crossed: covered by quads whose centers lie on its neighbors</source>
+        <translation>gekreuzt: bedeckt von Vierecken, deren Mitten auf den Nachbarn liegen</translation>
+    </message>
+    <message>
+        <source>no edge or angle there is too small; the mesh itself is irregular there</source>
+        <translation>keine Kante und kein Winkel ist dort zu klein; das Netz selbst ist dort unregelmäßig</translation>
+    </message>
+    <message>
+        <source>small, but meshed: {}</source>
+        <translation>klein, aber vernetzt: {}</translation>
+    </message>
+    <message>
+        <source>boss on {} that is left out</source>
+        <translation>weggelassene Erhebung auf {}</translation>
+    </message>
+    <message>
+        <source>hole in {} that is filled</source>
+        <translation>gefülltes Loch in {}</translation>
+    </message>
+    <message>
+        <source>too small: {} stands for it</source>
+        <translation>zu klein: {} steht dafür</translation>
+    </message>
+    <message>
+        <source>poor quads: {}; {}</source>
+        <translation>schlechte Vierecke: {}; {}</translation>
+    </message>
+    <message>
+        <source>smooth edge that quads cross; on {}</source>
+        <translation>glatte Kante, die Vierecke kreuzen; an {}</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Wo</translation>
+    </message>
+    <message>
+        <source>What, and why</source>
+        <translation>Was, und warum</translation>
+    </message>
+    <message>
+        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Bei Unterdrücktem: wie weit es von dem liegt, was dafür steht; bei gefüllten Löchern: die Breite; bei schlechten Vierecken: die kürzeste Seite</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>
+        <translation>Im nächsten Netz behalten die hier oder in der 3D-Ansicht gewählten Flächen und Kanten eigene Knoten</translation>
+    </message>
+    <message>
+        <source>Suppress</source>
+        <translation>Unterdrücken</translation>
+    </message>
+    <message>
+        <source>The selected faces and edges are no longer kept: where they are small, they may be suppressed or crossed in the next mesh</source>
+        <translation>Die gewählten Flächen und Kanten werden nicht mehr behalten: wo sie klein sind, dürfen sie im nächsten Netz unterdrückt oder gekreuzt werden</translation>
+    </message>
+    <message>
+        <source>to be kept</source>
+        <translation>wird behalten</translation>
+    </message>
+    <message>
+        <source>it is {} long</source>
+        <translation>sie ist {} lang</translation>
+    </message>
+    <message>
+        <source>its sides meet at {} degrees at {}</source>
+        <translation>ihre Seiten bilden {} Grad an {}</translation>
+    </message>
+    <message>
+        <source>{} comes within {} of itself</source>
+        <translation>{} kommt sich selbst bis auf {} nahe</translation>
+    </message>
+    <message>
+        <source>{} and {} come within {} of each other</source>
+        <translation>{} und {} kommen sich bis auf {} nahe</translation>
+    </message>
+    <message>
+        <source>a loop of {} would be too small for elements</source>
+        <translation>eine Schleife von {} wäre zu klein für Elemente</translation>
+    </message>
+    <message>
+        <source>{} is so narrow that it would lose much of its area</source>
+        <translation>{} ist so schmal, dass viel von ihrem Inhalt verloren ginge</translation>
+    </message>
+    <message>
+        <source>two edges of {} would share their nodes</source>
+        <translation>zwei Kanten von {} hätten dieselben Knoten</translation>
+    </message>
+    <message>
+        <source>a node is placed at its boundary</source>
+        <translation>an ihrem Rand ist ein Knoten vorgegeben</translation>
+    </message>
+    <message>
+        <source>its long sides are not everywhere close together</source>
+        <translation>ihre langen Seiten liegen nicht überall dicht beieinander</translation>
+    </message>
+    <message>
+        <source>{} has no valid mesh without it</source>
+        <translation>{} hat ohne sie kein gültiges Netz</translation>
+    </message>
+    <message>
+        <source>{} more that do less harm</source>
+        <translation>{} weitere, die weniger schaden</translation>
+    </message>
+    <message>
+        <source>{}: which face, edge or vertex of {} {} was ({}) cannot be identified since the part was changed: choose it again</source>
+        <translation>{}: welche Fläche, Kante oder Ecke von {} {} war ({}), ist seit der Änderung des Teils nicht mehr zu erkennen: neu wählen</translation>
+    </message>
+    <message>
+        <source>{}: {} is no longer on its surface</source>
+        <translation>{}: {} liegt nicht mehr auf seiner Oberfläche</translation>
+    </message>
+    <message>
+        <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
+        <translation>{}: {}; bis dahin Flächen, Kanten und Ecken am Teil wählen</translation>
+    </message>
+    <message>
+        <source>select the faces, edges or vertices to refine</source>
+        <translation>die Flächen, Kanten oder Ecken wählen, die verfeinert werden sollen</translation>
+    </message>
+    <message>
+        <source>a refinement needs a size larger than 0, not {}</source>
+        <translation>eine Verfeinerung braucht eine Größe über 0, nicht {}</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is too small for a part of {:.3g} mm</source>
+        <translation>eine Größe von {:.3g} mm ist zu klein für ein Teil von {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is larger than the model, whose diagonal is {:.3g} mm</source>
+        <translation>eine Größe von {:.3g} mm ist größer als das Modell, dessen Diagonale {:.3g} mm hat</translation>
+    </message>
+    <message>
+        <source>{}: the part has no such face to flip</source>
+        <translation>{}: das Teil hat keine solche Fläche zum Umkehren</translation>
+    </message>
+    <message>
+        <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
+        <translation>die Normalen sind nicht umkehrbar: das Teil hat Kanten oder Ecken, die zu keiner Fläche gehören</translation>
+    </message>
+    <message>
+        <source>{}.{}: is not in the meshed part</source>
+        <translation>{}.{}: gehört nicht zum vernetzten Teil</translation>
+    </message>
+    <message>
+        <source>Solid{}: is not in the meshed part</source>
+        <translation>Solid{}: gehört nicht zum vernetzten Teil</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone</source>
+        <translation>{}: das Teil, das es vernetzt, ist weg</translation>
+    </message>
+    <message>
+        <source>{}: has no shape to mesh</source>
+        <translation>{}: hat keine Form zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: its shape has no faces to mesh</source>
+        <translation>{}: seine Form hat keine Flächen zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: a mesh region needs a length larger than 0</source>
+        <translation>{}: ein Netzbereich braucht eine Länge über 0</translation>
+    </message>
+    <message>
+        <source>{}: its sizes from results cannot be read ({}): switch {} off</source>
+        <translation>{}: seine Größen aus Ergebnissen sind nicht lesbar ({}): {} ausschalten</translation>
+    </message>
+    <message>
+        <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
+        <translation>{}: SizeField ist gesetzt, und die Größen aus Ergebnissen würden es ersetzen: zuerst leeren</translation>
+    </message>
+    <message>
+        <source>{}: is not in an analysis: add it to one, and solve that first</source>
+        <translation>{}: ist in keiner Analyse: zu einer hinzufügen, und diese zuerst lösen</translation>
+    </message>
+    <message>
+        <source>{}: has no result with displacements: solve it with {} first</source>
+        <translation>{}: hat kein Ergebnis mit Verschiebungen: zuerst mit {} lösen</translation>
+    </message>
+    <message>
+        <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
+        <translation>{}: seine Knoten sind verschoben: DisplaceMesh von {} auf false setzen und neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
+        <translation>{}: hat nur Ergebnisse in der Mitte der Schale: {} von {} auf true setzen und neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: has no shell elements: an element has {} nodes</source>
+        <translation>{}: hat keine Schalenelemente: ein Element hat {} Knoten</translation>
+    </message>
+    <message>
+        <source>{}: has no displacements: solve again</source>
+        <translation>{}: hat keine Verschiebungen: neu lösen</translation>
+    </message>
+    <message>
+        <source>{}: is being meshed already; wait for it, or cancel it first</source>
+        <translation>{}: wird schon vernetzt; darauf warten oder es zuerst abbrechen</translation>
+    </message>
+    <message>
+        <source>{}: has no face {} to flip</source>
+        <translation>{}: hat keine Fläche {} zum Umkehren</translation>
+    </message>
+    <message>
+        <source>{}: {}; nothing was exported</source>
+        <translation>{}: {}; nichts wurde exportiert</translation>
+    </message>
+    <message>
+        <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
+        <translation>{}: der Vernetzer liefert jetzt ein anderes Netz (andere Version, oder das Teil wurde neu berechnet und weicht um Rundung ab): neu vernetzen, dann exportieren</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written: {}</source>
+        <translation>{}: kann nicht geschrieben werden: {}</translation>
+    </message>
+    <message>
+        <source>{}: is not a FEM analysis</source>
+        <translation>{}: ist keine FEM-Analyse</translation>
+    </message>
+    <message>
+        <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
+        <translation>{}: enthält schon das Netz {}, und FreeCAD löst mit nur einem Netz</translation>
+    </message>
+    <message>
+        <source>{}: has no solid; a middle surface is made of solids</source>
+        <translation>{}: hat keinen Festkörper; eine Mittelfläche entsteht aus Festkörpern</translation>
+    </message>
+    <message>
+        <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
+        <translation>{}: ist kein Netzobjekt; eines wählen, etwa eine importierte STL-Datei</translation>
+    </message>
+    <message>
+        <source>{}: has no triangles to mesh</source>
+        <translation>{}: hat keine Dreiecke zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
+        <translation>{}: mit Größe {:g} nicht zu vernetzen: sie muss über 0 sein</translation>
     </message>
 </context>
 <context>

@@ -520,14 +520,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>imposé par {}</translation>
     </message>
     <message>
-        <source>Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed</source>
-        <translation>Arêtes lisses que des quadrangles traversent, en pointillé dans la vue et sans groupe : {} ; Garder nomme les arêtes qui restent</translation>
-    </message>
-    <message>
-        <source>Holes, pockets and bosses that are left out: {}</source>
-        <translation>Trous, poches et bossages laissés de côté : {}</translation>
-    </message>
-    <message>
         <source>the mesh is not in an analysis: drag it into one in the tree</source>
         <translation>le maillage n'est dans aucune analyse : le glisser dans une analyse de l'arborescence</translation>
     </message>
@@ -550,10 +542,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>stresses come from the middle of the shell only: tick Stresses at the surfaces</source>
         <translation>les contraintes viennent du seul milieu de la coque : Contraintes en surface</translation>
-    </message>
-    <message>
-        <source>Edges and faces whose quads are outside the limits or have short sides: {}</source>
-        <translation>Arêtes et faces dont des quadrangles sont hors limites : {}</translation>
     </message>
     <message>
         <source>Missing before solving: {}</source>
@@ -694,6 +682,266 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>{} has {} solids that touch or cross. Join them there (Imprint), so that they share nodes?</source>
         <translation>{} a {} solides qui se touchent ou se coupent. Les relier là (Imprimer), pour qu'ils partagent des nœuds ?</translation>
+    </message>
+    <message>
+        <source>tiny: replaced by an edge or a node of its neighbors</source>
+        <translation>minuscule : une arête ou un nœud de ses voisines la remplace</translation>
+    </message>
+    <message>
+        <source>in a filled hole</source>
+        <translation>dans un trou rempli</translation>
+    </message>
+    <message>
+        <source>joined with {}: coplanar</source>
+        <translation>réunie avec {} : coplanaires</translation>
+    </message>
+    <message>
+        <source>joined with {}: facets</source>
+        <translation>réunie avec {} : facettes</translation>
+    </message>
+    <message>
+        <source>crossed: covered by quads whose centers lie on its neighbors</source>
+        <translation>traversée : couverte par des quadrangles dont les centres sont sur ses voisines</translation>
+    </message>
+    <message>
+        <source>no edge or angle there is too small; the mesh itself is irregular there</source>
+        <translation>aucune arête ni aucun angle n'y est trop petit ; le maillage lui-même y est irrégulier</translation>
+    </message>
+    <message>
+        <source>small, but meshed: {}</source>
+        <translation>petite, mais maillée : {}</translation>
+    </message>
+    <message>
+        <source>boss on {} that is left out</source>
+        <translation>bossage sur {} laissé de côté</translation>
+    </message>
+    <message>
+        <source>hole in {} that is filled</source>
+        <translation>trou rempli dans {}</translation>
+    </message>
+    <message>
+        <source>too small: {} stands for it</source>
+        <translation>trop petit : {} le remplace</translation>
+    </message>
+    <message>
+        <source>poor quads: {}; {}</source>
+        <translation>mauvais quadrangles : {} ; {}</translation>
+    </message>
+    <message>
+        <source>smooth edge that quads cross; on {}</source>
+        <translation>arête lisse que des quadrangles traversent ; sur {}</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Où</translation>
+    </message>
+    <message>
+        <source>What, and why</source>
+        <translation>Quoi, pourquoi</translation>
+    </message>
+    <message>
+        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Pour ce qui est supprimé : sa distance à ce qui le remplace ; pour un trou rempli : sa largeur ; pour de mauvais quadrangles : leur plus petit côté</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Garder</translation>
+    </message>
+    <message>
+        <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>
+        <translation>Dans le prochain maillage, les faces et arêtes sélectionnées ici ou dans la vue 3D gardent leurs propres nœuds</translation>
+    </message>
+    <message>
+        <source>Suppress</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message>
+        <source>The selected faces and edges are no longer kept: where they are small, they may be suppressed or crossed in the next mesh</source>
+        <translation>Les faces et arêtes sélectionnées ne sont plus gardées : là où elles sont petites, elles peuvent être supprimées ou traversées dans le prochain maillage</translation>
+    </message>
+    <message>
+        <source>to be kept</source>
+        <translation>à garder</translation>
+    </message>
+    <message>
+        <source>it is {} long</source>
+        <translation>sa longueur est {}</translation>
+    </message>
+    <message>
+        <source>its sides meet at {} degrees at {}</source>
+        <translation>ses côtés font {} degrés en {}</translation>
+    </message>
+    <message>
+        <source>{} comes within {} of itself</source>
+        <translation>{} s'approche d'elle-même à {}</translation>
+    </message>
+    <message>
+        <source>{} and {} come within {} of each other</source>
+        <translation>{} et {} s'approchent à {}</translation>
+    </message>
+    <message>
+        <source>a loop of {} would be too small for elements</source>
+        <translation>une boucle de {} serait trop petite pour des éléments</translation>
+    </message>
+    <message>
+        <source>{} is so narrow that it would lose much of its area</source>
+        <translation>{} est si étroite qu'elle perdrait une grande part de son aire</translation>
+    </message>
+    <message>
+        <source>two edges of {} would share their nodes</source>
+        <translation>deux arêtes de {} partageraient leurs nœuds</translation>
+    </message>
+    <message>
+        <source>a node is placed at its boundary</source>
+        <translation>un nœud est placé sur son bord</translation>
+    </message>
+    <message>
+        <source>its long sides are not everywhere close together</source>
+        <translation>ses longs côtés ne sont pas partout proches</translation>
+    </message>
+    <message>
+        <source>{} has no valid mesh without it</source>
+        <translation>{} n'a pas de maillage valable sans elle</translation>
+    </message>
+    <message>
+        <source>{} more that do less harm</source>
+        <translation>{} autres, moins nuisibles</translation>
+    </message>
+    <message>
+        <source>{}: which face, edge or vertex of {} {} was ({}) cannot be identified since the part was changed: choose it again</source>
+        <translation>{} : depuis la modification de la pièce, on ne sait plus quelle face, arête ou sommet de {} était {} ({}) : choisir de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: {} is no longer on its surface</source>
+        <translation>{} : {} n&apos;est plus sur sa surface</translation>
+    </message>
+    <message>
+        <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
+        <translation>{} : {} ; en attendant, choisir ses faces, arêtes et sommets sur la pièce</translation>
+    </message>
+    <message>
+        <source>select the faces, edges or vertices to refine</source>
+        <translation>sélectionner les faces, arêtes ou sommets à raffiner</translation>
+    </message>
+    <message>
+        <source>a refinement needs a size larger than 0, not {}</source>
+        <translation>un raffinement demande une taille supérieure à 0, et non {}</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is too small for a part of {:.3g} mm</source>
+        <translation>une taille de {:.3g} mm est trop petite pour une pièce de {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>a size of {:.3g} mm is larger than the model, whose diagonal is {:.3g} mm</source>
+        <translation>une taille de {:.3g} mm dépasse le modèle, dont la diagonale est de {:.3g} mm</translation>
+    </message>
+    <message>
+        <source>{}: the part has no such face to flip</source>
+        <translation>{} : la pièce n&apos;a pas cette face à inverser</translation>
+    </message>
+    <message>
+        <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
+        <translation>les normales ne peuvent être inversées : la pièce a des arêtes ou sommets sans face</translation>
+    </message>
+    <message>
+        <source>{}.{}: is not in the meshed part</source>
+        <translation>{}.{} : n&apos;est pas dans la pièce maillée</translation>
+    </message>
+    <message>
+        <source>Solid{}: is not in the meshed part</source>
+        <translation>Solid{} : n&apos;est pas dans la pièce maillée</translation>
+    </message>
+    <message>
+        <source>{}: the part that it meshes is gone</source>
+        <translation>{} : la pièce maillée n&apos;existe plus</translation>
+    </message>
+    <message>
+        <source>{}: has no shape to mesh</source>
+        <translation>{} : n&apos;a pas de forme à mailler</translation>
+    </message>
+    <message>
+        <source>{}: its shape has no faces to mesh</source>
+        <translation>{} : sa forme n&apos;a pas de faces à mailler</translation>
+    </message>
+    <message>
+        <source>{}: a mesh region needs a length larger than 0</source>
+        <translation>{} : une région de maillage demande une longueur supérieure à 0</translation>
+    </message>
+    <message>
+        <source>{}: its sizes from results cannot be read ({}): switch {} off</source>
+        <translation>{} : ses tailles tirées des résultats sont illisibles ({}) : désactiver {}</translation>
+    </message>
+    <message>
+        <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
+        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l&apos;effacer d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: is not in an analysis: add it to one, and solve that first</source>
+        <translation>{} : n&apos;est dans aucune analyse : l&apos;ajouter à une analyse, et la résoudre d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: has no result with displacements: solve it with {} first</source>
+        <translation>{} : n&apos;a pas de résultat avec déplacements : résoudre d&apos;abord avec {}</translation>
+    </message>
+    <message>
+        <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
+        <translation>{} : ses nœuds sont déplacés : mettre DisplaceMesh de {} à false, et résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
+        <translation>{} : n&apos;a de résultats qu&apos;au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: has no shell elements: an element has {} nodes</source>
+        <translation>{} : n&apos;a pas d&apos;éléments coques : un élément a {} nœuds</translation>
+    </message>
+    <message>
+        <source>{}: has no displacements: solve again</source>
+        <translation>{} : n&apos;a pas de déplacements : résoudre de nouveau</translation>
+    </message>
+    <message>
+        <source>{}: is being meshed already; wait for it, or cancel it first</source>
+        <translation>{} : est déjà en cours de maillage ; attendre, ou l&apos;annuler d&apos;abord</translation>
+    </message>
+    <message>
+        <source>{}: has no face {} to flip</source>
+        <translation>{} : n&apos;a pas de face {} à inverser</translation>
+    </message>
+    <message>
+        <source>{}: {}; nothing was exported</source>
+        <translation>{} : {} ; rien n&apos;a été exporté</translation>
+    </message>
+    <message>
+        <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
+        <translation>{} : le mailleur donne maintenant un autre maillage (sa version a changé, ou la pièce recalculée diffère par les arrondis) : mailler de nouveau, puis exporter</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written: {}</source>
+        <translation>{} : ne peut être écrit : {}</translation>
+    </message>
+    <message>
+        <source>{}: is not a FEM analysis</source>
+        <translation>{} : n&apos;est pas une analyse FEM</translation>
+    </message>
+    <message>
+        <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
+        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu&apos;avec un seul</translation>
+    </message>
+    <message>
+        <source>{}: has no solid; a middle surface is made of solids</source>
+        <translation>{} : n&apos;a pas de solide ; une surface moyenne se fait à partir de solides</translation>
+    </message>
+    <message>
+        <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
+        <translation>{} : n&apos;est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
+    </message>
+    <message>
+        <source>{}: has no triangles to mesh</source>
+        <translation>{} : n&apos;a pas de triangles à mailler</translation>
+    </message>
+    <message>
+        <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
+        <translation>{} : ne peut être maillé à la taille {:g} : elle doit être supérieure à 0</translation>
     </message>
 </context>
 <context>

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 from xml.etree import ElementTree
 
@@ -24,11 +25,11 @@ from case import MODELS, GuiCase, picture, run, type_into
 from driver import Boxes, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS, MeshSettings
-from quadrille.document import links, state
+from quadrille.document import findings, links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import background, commands, overlays, preferences
+from quadrille.gui import background, commands, findings_table, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -228,28 +229,169 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertEqual(mesh.Keep, ["Edge7", "Edge12"])
 
+    def found(self):
+        """The texts in the table of findings, by name."""
+        table = find("QuadrilleFindings")
+        rows = range(table.rowCount() if table.isVisible() else 0)
+        return {table.item(row, 0).text(): (table.item(row, 1).text(), table.item(row, 2).text()) for row in rows}
+
+    @staticmethod
+    def click_finding(name):
+        """Clicks on a row of the table of findings."""
+        table = find("QuadrilleFindings")
+        item = table.findItems(name, QtCore.Qt.MatchExactly)[0]
+        find("QuadrilleScrolled").ensureWidgetVisible(table)
+        table.scrollToItem(item)
+        process(0.2)
+        click(table.viewport(), QtCore.QPointF(table.visualItemRect(item).center()))
+
+    def selected(self):
+        """The names selected in the 3-D view."""
+        return [name for entry in FreeCADGui.Selection.getSelectionEx(self.document.Name) for name in entry.SubElementNames]
+
     def test_smooth_edges_that_quads_cross_are_told_once(self):
         part = self.document.addObject("Part::Feature", "Cone")
         part.Shape = Part.read(str(MODELS / "cone.brep"))
         self.show()
         mesh = self.open_panel(part)
         self.press_mesh()
-        crossed = find("QuadrilleCrossed")
-        self.assertTrue(crossed.isVisible())
-        self.assertIn("without a group): 1;", crossed.text())
-        self.assertEqual(crossed.toolTip(), "Edge2 (Face1)")
+        self.assertIn("Edge2", self.found())
         self.assertNotIn("cross", find("QuadrilleLog").toPlainText())
         self.assertTrue(overlays.is_shown(mesh, overlays.CROSSED))
         picture("crossed")
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.CROSSED))
         self.edit(mesh)
-        crossed = find("QuadrilleCrossed")
-        self.assertTrue(crossed.isVisible())  # still told when the panel opens again
+        self.assertEqual(self.found()["Edge2"], ("smooth edge that quads cross; on Face1", ""))  # told when the panel opens again
         find("QuadrilleMore").setChecked(True)
         find("QuadrilleKeepFeatures").setChecked(True)
         self.press_mesh()
-        self.assertFalse(crossed.isVisible())
+        self.assertNotIn("Edge2", self.found())
+        close_panel()
+
+    def stepped(self):
+        """A box with a step along one edge that is too small for its mesh."""
+        part = self.document.addObject("Part::Feature", "Stepped")
+        part.Shape = Part.makeBox(100, 60, 40).cut(Part.makeBox(0.1, 0.1, 40))
+        self.show()
+        return part
+
+    def test_what_went_is_selected_and_kept_by_clicks(self):
+        part = self.stepped()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "5 mm")
+        self.press_mesh()
+        found = self.found()
+        groups = {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups}
+        gone = [name for name in found if name.startswith("Edge") and name not in groups and part.Shape.getElement(name).Length > 30]
+        self.assertTrue(gone, found)
+        self.assertIn("too small: ", found[gone[0]][0])
+        self.assertGreater(float(found[gone[0]][1]), 0)
+        distances = [float(entry[1]) for entry in found.values() if entry[1] and "too small" in entry[0]]
+        self.assertEqual(distances, sorted(distances, reverse=True))
+        self.click_finding(gone[0])
+        self.assertEqual(self.selected(), [gone[0]])
+        self.assertTrue(overlays.is_shown(mesh, overlays.MARKS))
+        picture("finding")
+        short = next(name for name in found if name.startswith("Edge") and part.Shape.getElement(name).Length < 1)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        self.click_finding(short)
+        self.assertEqual(self.selected(), [short])
+        self.assertLess(camera.height.getValue(), 20)  # it was too small to be seen
+        picture("finding_zoomed")
+        self.click_finding(gone[0])
+        find("QuadrilleKeep").click()
+        process(0.2)
+        self.assertIn("to be kept", self.found()[gone[0]][0])
+        wait_for(lambda: find("QuadrilleStatus").text() == state.SETTINGS_CHANGED, what="the status")
+        self.press_mesh()
+        self.assertEqual(mesh.Keep, [gone[0]])
+        self.assertIn(gone[0], {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups})
+        self.assertEqual(self.found()[gone[0]][0].partition(";")[0], "to be kept")
+        picture("finding_kept")
+        # What is clicked on the model is kept as well, and suppressed again.
+        self.select(part, "Face1")
+        find("QuadrilleKeep").click()
+        self.assertEqual(self.found()["Face1"][0].partition(";")[0], "to be kept")
+        self.select(part, "Face1", gone[0])
+        find("QuadrilleSuppress").click()
+        self.press_mesh()
+        self.assertEqual(mesh.Keep, [])
+        self.assertNotIn(gone[0], {mesh.FemMesh.getGroupName(number) for number in mesh.FemMesh.Groups})
+        FreeCADGui.Selection.clearSelection()
+        with Boxes() as boxes:
+            find("QuadrilleKeep").click()
+        self.assertEqual(boxes.texts, ["Select them on Stepped in the 3-D view first."])
+        close_panel()
+        self.assertFalse(overlays.is_shown(mesh, overlays.MARKS))
+        # The command Mesh quality has the same table.
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(mesh)
+        trigger("Quadrille_Quality")
+        self.select(part, short, gone[0])
+        find("QuadrilleKeep").click()
+        self.assertEqual((mesh.Keep, mesh.Status), ([short, gone[0]], state.SETTINGS_CHANGED))
+        self.select(part, short)
+        find("QuadrilleSuppress").click()
+        self.assertEqual(mesh.Keep, [gone[0]])
+        self.document.undo()
+        self.assertEqual(mesh.Keep, [short, gone[0]])
+        close_panel()
+
+    def test_long_lists_of_findings_are_cut(self):
+        small = [{"name": f"Edge{number}", "to": "Vertex1", "distance": 0.001 * number} for number in range(1, 1001)]
+        poor = {"name": "Face1", "quads": 2, "shortest": 0.1, "forced": True, "cause": "short edge", "why": "it is 0.1 long"}
+        text = findings.as_text({"suppressed_features": small, "poor_quads": [poor]})
+        rows = findings_table.rows_of(SimpleNamespace(Findings=text))
+        self.assertEqual(len(rows), findings_table.MOST_ROWS + 2)
+        self.assertEqual((rows[0].names, rows[-2].text), (("Edge1000",), "800 more that do less harm"))
+        self.assertEqual(rows[-1], findings_table.Row(("Face1",), "poor quads: 2; it is 0.1 long", 0.1, True))
+        mesh = quadrille.freecad.mesh_object(self.box(), size=5)
+        mesh.Findings = text
+        self.edit(mesh)
+        self.assertEqual(find("QuadrilleFindings").rowCount(), len(rows))
+        find("QuadrilleFindings").selectRow(len(rows) - 2)
+        self.assertEqual(self.selected(), [])
+        close_panel()
+
+    def test_a_click_on_the_model_selects_its_row(self):
+        part = self.stepped()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "5 mm")
+        self.select(part, "Face6")
+        self.press_mesh()
+        find("QuadrilleKeep").click()
+        mesh.ViewObject.hide()
+        part.ViewObject.show()
+        self.show()
+        find("QuadrilleFindings").clearSelection()
+        face = next(name for name in (f"Face{k}" for k in range(1, 9)) if abs(part.Shape.getElement(name).CenterOfMass.z - 40) < 1e-6)
+        self.select(part, face)
+        find("QuadrilleKeep").click()
+        FreeCADGui.Selection.clearSelection()
+        find("QuadrilleFindings").clearSelection()
+        click_at(FreeCAD.Vector(55, 30, 40))
+        table = find("QuadrilleFindings")
+        self.assertEqual([table.item(index.row(), 0).text() for index in table.selectionModel().selectedRows()], [face])
+        close_panel(CANCEL)
+
+    def test_a_click_on_a_cause_of_poor_quads_zooms_there(self):
+        part = self.document.addObject("Part::Feature", "Wedge")
+        corners = [FreeCAD.Vector(*point) for point in ((0, 0), (100, 0), (100, 8))]
+        part.Shape = Part.Face(Part.makePolygon([*corners, corners[0]]))
+        self.show()
+        mesh = self.open_panel(part)
+        type_into("QuadrilleSize", "4 mm")
+        self.press_mesh()
+        cause = next(name for name, (text, _) in self.found().items() if "poor quads" in text)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        before = camera.height.getValue()
+        self.click_finding(cause)
+        self.assertEqual(self.selected(), [cause])
+        self.assertLess(camera.height.getValue(), before / 2)
+        self.assertTrue(overlays.is_shown(mesh, overlays.ELEMENT))
+        self.assertIn(" on Face1: q ", find("QuadrilleElement").text())
+        picture("cause")
         close_panel()
 
     def test_buttons_stay_in_sight(self):
@@ -336,7 +478,13 @@ class PanelTest(GuiCase):
                 if isinstance(widget, QtGui.QTableWidget):
                     self.assertLessEqual(widget.horizontalHeader().length(), widget.viewport().width())
                     for column in range(widget.columnCount()):
-                        self.assertLessEqual(widget.sizeHintForColumn(column), widget.columnWidth(column))
+                        if widget.horizontalHeader().sectionResizeMode(column) != QtGui.QHeaderView.Stretch:
+                            self.assertLessEqual(widget.sizeHintForColumn(column), widget.columnWidth(column))
+                            continue
+                        for row in range(widget.rowCount()):  # texts wrap
+                            self.assertLessEqual(widget.sizeHintForRow(row), widget.rowHeight(row))
+                            for word in widget.item(row, column).text().split():
+                                self.assertLess(widget.fontMetrics().boundingRect(word).width(), widget.columnWidth(column) - 4, word)
                 if isinstance(widget, (QtGui.QLabel, QtGui.QAbstractButton)) and widget.text() and \
                         not getattr(widget, "wordWrap", lambda: False)():
                     self.assertGreaterEqual(widget.width(), widget.minimumSizeHint().width(), widget.text())
@@ -915,9 +1063,10 @@ class PanelTest(GuiCase):
         self.assertTrue(pages and pages[0], "the page is in FreeCAD's dialog")
 
     def test_languages(self):
-        for language, mesh_word, command_word, status, words in (
-                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", ("Aus Auswahl", "Größenvorschau", "Ärgste")),
-                ("French", "Mailler", "Maillage de quadrangles", "à jour", ("Sélection", "Aperçu des tailles", "Pire"))):
+        for language, mesh_word, command_word, status, error, words in (
+                ("German", "Vernetzen", "Vierecknetz aus Form", "aktuell", "größer als das Modell",
+                 ("Aus Auswahl", "Größenvorschau", "Ärgste")),
+                ("French", "Mailler", "Maillage de quadrangles", "à jour", "dépasse le modèle", ("Sélection", "Aperçu des tailles", "Pire"))):
             with self.subTest(language=language):
                 FreeCADGui.setLocale(language)
                 try:
@@ -930,6 +1079,8 @@ class PanelTest(GuiCase):
                                       find("QuadrilleCriteria").horizontalHeaderItem(2).text()), words)
                     self.assertEqual(mesh.Status, "up to date")  # for scripts, whatever the language
                     picture(f"panel_{language}")
+                    type_into("QuadrilleSize", "1e300 mm")
+                    self.assertIn(error, self.error_of("Size"))
                     type_into("QuadrilleSize", "2,5 mm")
                     close_panel()
                     self.assertEqual(mesh.Size.Value, 2.5)
@@ -944,15 +1095,23 @@ class PanelTest(GuiCase):
         files = sorted(folder.glob("*.ts"))
         self.assertEqual([file.name for file in files], ["Quadrille_de.ts", "Quadrille_fr.ts"])
         for file in files:
-            for message in ElementTree.parse(file).getroot().iter("message"):
-                translation = message.find("translation")
-                source = message.find("source").text
-                self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
-                self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
+            compiled = QtCore.QTranslator()
+            self.assertTrue(compiled.load(str(file.with_suffix(".qm"))), f"{file.name}: scripts/translations.sh compiles it")
+            for context in ElementTree.parse(file).getroot().iter("context"):
+                for message in context.iter("message"):
+                    translation = message.find("translation")
+                    source = message.find("source").text
+                    self.assertTrue(translation.text and translation.get("type") is None, f"{file.name}: {source}")
+                    self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
+                    self.assertEqual(compiled.translate(context.find("name").text, source), translation.text,
+                                     f"{file.name} has changed: scripts/translations.sh compiles it")
+        for room in ("document", "features", "gui"):
+            for source in (folder.parent / "quadrille" / room).glob("*.py"):
+                self.assertNotRegex(source.read_text(encoding="utf-8"), r'[ (]Error\(\s*f?"', f"{source}: translate errors")
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
         for entry in commands.COMMANDS.values():
             self.assertLessEqual({entry.text, entry.tip}, marked)
-        self.assertLessEqual(set(state.STATUSES), marked)
+        self.assertLessEqual(set(state.STATUSES) | set(findings_table.SENTENCES), marked)
         self.assertLessEqual({setting["label"] for setting in SETTINGS if setting["label"]}, marked)
 
     def test_each_command_has_icon_tip_and_shortcut(self):

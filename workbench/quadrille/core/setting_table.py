@@ -103,7 +103,7 @@ _WORDS_ELSEWHERE = {
     "--feature-angle": "the property FeatureAngle",
     "--merge": "the property MergeDistance",
     "--join": "the property Join",
-    "--report": "the group Result of the mesh's properties",
+    "--report": "the table of Mesh quality",
 }
 _OPTION = re.compile(r"(?<![\w-])--[a-z]+(?:-[a-z]+)*")
 

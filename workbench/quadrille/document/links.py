@@ -12,7 +12,7 @@ import json
 from typing import Any, Container, Dict, Iterable, List, NamedTuple, Sequence, Tuple
 
 from ..core.errors import Error
-from . import shapes
+from . import shapes, translate
 
 #: FreeCAD's type of property for links to faces, edges and vertices, whatever container the part is in.
 PROPERTY = "App::PropertyLinkSubListGlobal"
@@ -140,8 +140,9 @@ def _now(mesh, entry: Chosen, elements: shapes.Elements, record: Tuple[str, List
 
 def _lost(mesh, entry: Chosen) -> Error:
     name = entry.name.lstrip(_MISSING)
-    return Error(f"{mesh.Label}: which face, edge or vertex of {entry.target.Label} {name} was ({entry.label}) cannot be "
-                 "identified since the part was changed: choose it again", "usage", name)
+    return Error(translate(
+        "Quadrille", "{}: which face, edge or vertex of {} {} was ({}) cannot be identified since the part was "
+        "changed: choose it again").format(mesh.Label, entry.target.Label, name, entry.label), "usage", name)
 
 
 def _has_shape(target) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..core.arrays import faces_of, nodes_of
 from ..core.errors import Error
-from . import groups, shapes, state
+from . import groups, shapes, state, translate
 
 #: The outermost object, and the path inside it of what is picked: (Body, "Pocket.Face9"), or (Box, "") for the whole object.
 Pick = Tuple[Any, str]
@@ -65,7 +65,8 @@ def elements_of(part, picks: Iterable[Pick]) -> List[str]:
             inner = ".".join(pick[1].split(".")[path.index(part) - len(path):])
             found = shapes.find_element(part.Shape, part.getSubObject(inner))
             if found is None:
-                raise Error(f"{part.Label}: {pick[1]} is no longer on its surface", "usage", pick[1])
+                raise Error(translate(
+                    "Quadrille", "{}: {} is no longer on its surface").format(part.Label, pick[1]), "usage", pick[1])
             name = found
         if name not in names:
             names.append(name)
@@ -100,10 +101,13 @@ def points_of(part, picks: Iterable[Pick]) -> Dict[str, Tuple[float, float, floa
 
 def _moved(point, obj, part):
     """A point of an object's shape in the coordinates of the part's shape, which may lie in another container."""
-    def placed(of):
-        container = of.getParentGeoFeatureGroup()
-        return container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
-    return placed(part).inverse().multVec(placed(obj).multVec(point))
+    return placement_of(part).inverse().multVec(placement_of(obj).multVec(point))
+
+
+def placement_of(obj):
+    """Where the container of an object lies: takes the coordinates of its shape or mesh to global ones."""
+    container = obj.getParentGeoFeatureGroup()
+    return container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
 
 
 def references_on(part, picks: Sequence[Pick]) -> List[Tuple]:
@@ -132,6 +136,8 @@ def _is_mesh_of(part, obj) -> bool:
 
 # Picks on meshes
 
+#: The statuses of a mesh whose faces, edges and vertices may not be those of the part.
+OTHER_PART = (state.PART_CHANGED, state.BOTH_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS)
 #: How close to a side or a corner of an element a pick means the edge or the vertex there, relative to the mean side length.
 _NEAR_EDGE, _NEAR_VERTEX = 0.2, 0.25
 #: Elements whose distance to a pick is measured: those with the nearest circumscribed spheres.
@@ -142,8 +148,10 @@ def on_mesh(mesh, point: Sequence[float]) -> str:
     """The name of the part's face, edge or vertex that a mesh has at a point, in global coordinates. Empty if it has none there.
     FreeCAD 0.20 names elements other than those that were clicked, so it is found by the point. Raises Error if the part has
     changed since it was meshed."""
-    if mesh.Status in (state.PART_CHANGED, state.BOTH_CHANGED, state.PART_GONE, state.LOST, state.OTHER_MEANS):
-        raise Error(f"{mesh.Label}: {mesh.Status}; until then, pick its faces, edges and vertices on the part", "usage",
+    if mesh.Status in OTHER_PART:
+        raise Error(translate(
+            "Quadrille", "{}: {}; until then, pick its faces, edges and vertices on the part").format(
+                mesh.Label, translate("QuadrilleStatus", mesh.Status)), "usage",
                     mesh.Name)
     element, quad, ends, at = _nearest(mesh, point)
     if not element:
@@ -173,9 +181,7 @@ def _nearest(mesh, point: Sequence[float]) -> Tuple[int, np.ndarray, np.ndarray,
     the mesh. The id is 0 if there are no quads."""
     fem_mesh = mesh.FemMesh
     ids, sizes, flat = faces_of(fem_mesh)
-    container = mesh.getParentGeoFeatureGroup()
-    placed = container.getGlobalPlacement() if container is not None else FreeCAD.Placement()
-    at = np.array(tuple(placed.inverse().multVec(FreeCAD.Vector(*point))))
+    at = np.array(tuple(placement_of(mesh).inverse().multVec(FreeCAD.Vector(*point))))
     if not ids.size:
         return 0, np.zeros((0, 3)), np.zeros(0, int), at
     numbers, places = nodes_of(fem_mesh)

@@ -3,7 +3,7 @@
 
 from ..core.errors import Error
 from ..core.units import millimeters
-from . import shapes
+from . import shapes, translate
 from .state import shape_of
 
 
@@ -23,10 +23,11 @@ def refine(mesh, references, size, name: str = "Refinement"):
     import ObjectsFem
 
     if not references or not any(names for _, names in references):
-        raise Error("select the faces, edges or vertices to refine", "usage", mesh.Name)
+        raise Error(translate("Quadrille", "select the faces, edges or vertices to refine"), "usage", mesh.Name)
     length = millimeters(size)
     if not length > 0:
-        raise Error(f"a refinement needs a size larger than 0, not {size}", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "a refinement needs a size larger than 0, not {}").format(size), "usage", mesh.Name)
     check_references(mesh, references)  # raises now, not when meshing
     region = ObjectsFem.makeMeshRegion(mesh.Document, mesh, length, name)
     region.References = references

@@ -9,6 +9,7 @@ from typing import Any, Dict, Iterable, List, Optional, Sequence, Tuple
 import Part
 
 from ..core.errors import Error
+from . import translate
 
 
 def check_size(shape, sizes: Iterable[float]) -> None:
@@ -17,9 +18,11 @@ def check_size(shape, sizes: Iterable[float]) -> None:
     size, *_ = sizes = list(sizes)
     diagonal, least = shape.BoundBox.DiagonalLength, min(sizes)
     if not least > 1e-9 * diagonal:
-        raise Error(f"a size of {least:.3g} mm is too small for a part of {diagonal:.3g} mm", "usage", "Size")
+        raise Error(translate(
+            "Quadrille", "a size of {:.3g} mm is too small for a part of {:.3g} mm").format(least, diagonal), "usage", "Size")
     if size > diagonal:
-        raise Error(f"a size of {size:.3g} mm is larger than the model, whose diagonal is {diagonal:.3g} mm", "usage", "Size")
+        raise Error(translate(
+            "Quadrille", "a size of {:.3g} mm is larger than the model, whose diagonal is {:.3g} mm").format(size, diagonal), "usage", "Size")
 
 
 _last_fingerprint: List[Tuple[Any, List[float]]] = []
@@ -64,12 +67,14 @@ def with_reversed_faces(shape, names: Sequence[str]):
             reverse.discard(f"Face{index}")
         faces.append(face)
     if reverse:
-        raise Error(f"{sorted(reverse)[0]}: the part has no such face to flip", "usage", sorted(reverse)[0])
+        raise Error(translate(
+            "Quadrille", "{}: the part has no such face to flip").format(sorted(reverse)[0]), "usage", sorted(reverse)[0])
     compound = Part.makeCompound(faces)
     for kind in ("Faces", "Edges", "Vertexes"):
         before, after = getattr(shape, kind), getattr(compound, kind)
         if len(before) != len(after) or not all(a.isSame(b) for a, b in zip(before, after)):
-            raise Error("the normals cannot be flipped: the part has edges or vertices that belong to no face",
+            raise Error(translate(
+                "Quadrille", "the normals cannot be flipped: the part has edges or vertices that belong to no face"),
                         "failure")
     return compound
 
@@ -87,10 +92,11 @@ def references_to_names(shape, owner, references: Sequence[Tuple]) -> List[str]:
         found = element if target == owner else find_element(shape, _element_in(owner, target, element))
         if found and found.startswith("Solid"):
             names += _faces_of_solid(shape, int(found[5:]))
-        elif found and _exists(shape, found):
+        elif found and has_element(shape, found):
             names.append(found)
         else:
-            raise Error(f"{target.Label}.{element}: is not in the meshed part", "usage", element)
+            raise Error(translate(
+                "Quadrille", "{}.{}: is not in the meshed part").format(target.Label, element), "usage", element)
     return names
 
 
@@ -202,13 +208,15 @@ def measures(element) -> List[float]:
     return [*element.CenterOfMass, size, *spread]
 
 
-def _exists(shape, name: str) -> bool:
+def has_element(shape, name: str) -> bool:
+    """Whether a shape has the face, edge or vertex of this name."""
     kind = name.rstrip("0123456789")
     return kind in _KINDS and 1 <= int(name[len(kind):] or 0) <= len(getattr(shape, _KINDS[kind]))
 
 
 def _faces_of_solid(shape, number: int) -> List[str]:
     if not 1 <= number <= len(shape.Solids):
-        raise Error(f"Solid{number}: is not in the meshed part", "usage", f"Solid{number}")
+        raise Error(translate(
+            "Quadrille", "Solid{}: is not in the meshed part").format(number), "usage", f"Solid{number}")
     faces = shape.Solids[number - 1].Faces
     return [f"Face{i}" for i, face in enumerate(shape.Faces, 1) if any(face.isSame(other) for other in faces)]

@@ -10,7 +10,7 @@ import FreeCAD
 
 from ..core.errors import Error
 from ..core.setting_table import SETTINGS, MeshSettings, from_property
-from . import groups, links, shapes
+from . import groups, links, shapes, translate
 
 #: The type of the Python side of our mesh objects.
 TYPE = "Fem::FemMeshQuadrille"
@@ -97,7 +97,8 @@ def _length(region) -> float:
 def part_of(mesh):
     """The part of a mesh object. Raises Error if it was deleted."""
     if mesh.Shape is None:
-        raise Error(f"{mesh.Label}: the part that it meshes is gone", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "{}: the part that it meshes is gone").format(mesh.Label), "usage", mesh.Name)
     return mesh.Shape
 
 
@@ -106,9 +107,10 @@ def shape_of(doc_object):
     shape = getattr(doc_object, "Shape", None)
     if shape is None or not hasattr(shape, "countElement"):
         label = getattr(doc_object, "Label", doc_object)
-        raise Error(f"{label}: has no shape to mesh", "usage", getattr(doc_object, "Name", ""))
+        raise Error(translate("Quadrille", "{}: has no shape to mesh").format(label), "usage", getattr(doc_object, "Name", ""))
     if shape.isNull() or not shape.countElement("Face"):  # not len(shape.Faces): slow for many faces in 1.0
-        raise Error(f"{doc_object.Label}: its shape has no faces to mesh", "usage", doc_object.Name)
+        raise Error(translate(
+            "Quadrille", "{}: its shape has no faces to mesh").format(doc_object.Label), "usage", doc_object.Name)
     return shape
 
 
@@ -132,7 +134,8 @@ def sizes_wanted(mesh, wanted: Wanted, found: Dict[links.Key, str]) -> Dict[str,
     for region, references, size in wanted.refinements:
         if not size > 0:
             label = getattr(mesh.Document.getObject(region), "Label", "Refinement")
-            raise Error(f"{label}: a mesh region needs a length larger than 0", "usage", region)
+            raise Error(translate(
+                "Quadrille", "{}: a mesh region needs a length larger than 0").format(label), "usage", region)
         for name in shapes.references_to_names(shape, mesh.Shape, links.renamed(region, references, found)):
             sizes[name] = min(size, sizes.get(name, size))
     return sizes
@@ -160,7 +163,9 @@ def _digest(mesh, path: str) -> str:
     try:
         return hashlib.sha256(Path(path).read_bytes()).hexdigest()
     except OSError as error:
-        raise Error(f"{mesh.Label}: its sizes from results cannot be read ({error.strerror}): switch {FOLLOWS} off", "failure",
+        raise Error(translate(
+            "Quadrille", "{}: its sizes from results cannot be read ({}): switch {} off").format(
+                mesh.Label, error.strerror, FOLLOWS), "failure",
                     mesh.Name) from error
 
 

@@ -21,7 +21,7 @@ from ..core.command import CommandJob, Progress, scratch_folder
 from ..core.errors import Error
 from ..core.jobs import find_mesher, in_own_words
 from ..core.prepared import Prepared
-from ..document import groups, state
+from ..document import groups, state, translate
 from ..document.state import ADAPTED, FOLLOWS
 from ..solvers import results
 from . import mesh_object as core
@@ -106,7 +106,8 @@ def _key(mesh) -> Tuple[str, str]:
 def _prepare(mesh, error, count, result, progress, command) -> _Round:
     """Does everything that can fail, before the document is changed."""
     if mesh.SizeField:
-        raise Error(f"{mesh.Label}: its SizeField is set, which the sizes from results would replace: clear it first", "usage",
+        raise Error(translate(
+            "Quadrille", "{}: its SizeField is set, which the sizes from results would replace: clear it first").format(mesh.Label), "usage",
                     "SizeField")
     folder = scratch_folder()
     try:
@@ -131,7 +132,8 @@ _SIZES = "sizes.vdb"
 def _estimate(mesh, result, aim: List[str], folder: str, progress: Optional[Progress], command: Optional[str]) -> Estimate:
     analysis = groups.analysis_of(mesh)
     if analysis is None:
-        raise Error(f"{mesh.Label}: is not in an analysis: add it to one, and solve that first", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "{}: is not in an analysis: add it to one, and solve that first").format(mesh.Label), "usage", mesh.Name)
     solved, displaced, sizes = (os.path.join(folder, name) for name in ("mesh.inp", "result.vtu", _SIZES))
     result = result or last_result(mesh, analysis)
     _write_bricks(displaced, _bricks_of(result, analysis))
@@ -158,7 +160,9 @@ def last_result(mesh, analysis):
              and getattr(member, "DisplacementVectors", None) and getattr(member, "Mesh", None) is not None
              or _is_pipeline(member) and member in listed]
     if not found:
-        raise Error(f"{analysis.Label}: has no result with displacements: solve it with {mesh.Label} first", "usage", analysis.Name)
+        raise Error(translate(
+            "Quadrille", "{}: has no result with displacements: solve it with {} first").format(
+                analysis.Label, mesh.Label), "usage", analysis.Name)
     return found[-1]
 
 
@@ -207,13 +211,16 @@ class _Bricks(NamedTuple):
 def _bricks_of(result, analysis) -> _Bricks:
     for solver in results.solvers_of(analysis):
         if _is_pipeline(result) and result in getattr(solver, "Results", ()) and getattr(solver, "DisplaceMesh", False):
-            raise Error(f"{result.Label}: its nodes are displaced: set DisplaceMesh of {solver.Label} to false, and solve again", "usage",
+            raise Error(translate(
+                "Quadrille", "{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again").format(
+                    result.Label, solver.Label), "usage",
                         result.Name)
     bricks = _bricks_of_pipeline(result) if _is_pipeline(result) else _bricks_of_object(result)
     if not bricks.kinds.size or not np.isin(bricks.kinds, [kind for kind, _ in _BRICKS.values()]).all():
         solver = next((solver.Label for solver in results.solvers_of(analysis)), "the solver")
-        raise Error(f"{result.Label}: has results at the middle of the shell only: set {results.SURFACE_RESULTS} of {solver} to true, "
-                    "and solve again", "usage", result.Name)
+        raise Error(translate(
+            "Quadrille", "{}: has results at the middle of the shell only: set {} of {} to true, and solve again").format(
+                result.Label, results.SURFACE_RESULTS, solver), "usage", result.Name)
     return bricks
 
 
@@ -228,7 +235,8 @@ def _bricks_of_object(result) -> _Bricks:
     for volume in sorted(bricks.Volumes):
         nodes = bricks.getElementNodes(volume)
         if len(nodes) not in _BRICKS:
-            raise Error(f"{result.Label}: has no shell elements: an element has {len(nodes)} nodes", "usage", result.Name)
+            raise Error(translate(
+                "Quadrille", "{}: has no shell elements: an element has {} nodes").format(result.Label, len(nodes)), "usage", result.Name)
         kind, places = _BRICKS[len(nodes)]
         kinds.append(kind)
         cells.append(index[[nodes[place] for place in places]])
@@ -251,7 +259,8 @@ def _bricks_of_pipeline(pipeline) -> _Bricks:
     grid = last_step(pipeline)
     moved = grid.GetPointData().GetArray("Displacement") if grid is not None else None
     if moved is None:
-        raise Error(f"{pipeline.Label}: has no displacements: solve again", "usage", pipeline.Name)
+        raise Error(translate(
+            "Quadrille", "{}: has no displacements: solve again").format(pipeline.Label), "usage", pipeline.Name)
     cells = grid.GetCells()
     points, displacements, nodes, ends, kinds = map(vtk_to_numpy, (
         grid.GetPoints().GetData(), moved, cells.GetConnectivityArray(), cells.GetOffsetsArray(), grid.GetCellTypesArray()))

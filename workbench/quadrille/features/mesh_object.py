@@ -17,7 +17,7 @@ from ..core.jobs import ShapeJob
 from ..core.prepared import Prepared
 from ..core.setting_table import BY_NAME, SETTINGS, MeshSettings, face_name, property_help, property_kind, to_property, words
 from ..core.units import millimeters
-from ..document import containers, groups, links, old_documents, shapes, state, undo
+from ..document import containers, findings, groups, links, old_documents, shapes, state, translate, undo
 from ..document.regions import refine
 from ..document.state import UP_TO_DATE, Wanted, complaint, shape_of
 from ..solvers import element_types, results, wrappers
@@ -172,7 +172,8 @@ def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path
     """
     running = _running.get(_key(mesh))
     if running is not None and running.running:
-        raise Error(f"{mesh.Label}: is being meshed already; wait for it, or cancel it first", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "{}: is being meshed already; wait for it, or cancel it first").format(mesh.Label), "usage", mesh.Name)
     part = state.part_of(mesh)
     old_documents.mesh_regions(mesh)
     wanted = wanted or state.wanted_of(mesh)
@@ -226,7 +227,8 @@ def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
     names = [face_name(face) for face in faces] or [f"Face{i}" for i in range(1, len(shape.Faces) + 1)]
     unknown = sorted(set(names) - {f"Face{i}" for i in range(1, len(shape.Faces) + 1)})
     if unknown:
-        raise Error(f"{mesh.Label}: has no face {unknown[0]} to flip", "usage", unknown[0])
+        raise Error(translate(
+            "Quadrille", "{}: has no face {} to flip").format(mesh.Label, unknown[0]), "usage", unknown[0])
     before = list(mesh.FlippedFaces)
     flipped = set(state.flipped(mesh, links.follow(mesh))) ^ set(names)
     mesh.FlippedFaces = links.link(mesh.Shape, sorted(flipped, key=lambda text: int(text[4:])))
@@ -244,18 +246,21 @@ def export(mesh, path: Union[str, Path]) -> None:
     """
     now, sentence = mesh.Proxy.judge(mesh)
     if now != UP_TO_DATE:
-        raise Error(f"{mesh.Label}: {sentence}; nothing was exported", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "{}: {}; nothing was exported").format(mesh.Label, sentence), "usage", mesh.Name)
     with scratch_folder() as folder:
         written = os.path.join(folder, "export" + Path(path).suffix.lower())
         job = mesh.Proxy.start(mesh, outputs=[written])
         fem_mesh, _ = job.wait_for_result()
         if (fem_mesh.FaceCount, fem_mesh.NodeCount) != (mesh.FemMesh.FaceCount, mesh.FemMesh.NodeCount):
-            raise Error(f"{mesh.Label}: the mesher now gives another mesh (its version has changed, or the part was recomputed "
-                        "and differs by rounding): mesh again, then export", "failure", mesh.Name)
+            raise Error(translate(
+                "Quadrille", "{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and "
+                "differs by rounding): mesh again, then export").format(mesh.Label), "failure", mesh.Name)
         try:
             Path(path).write_bytes(Path(written).read_bytes())
         except OSError as error:
-            raise Error(f"{path}: cannot be written: {error.strerror}", "failure", str(path)) from error
+            raise Error(translate(
+                "Quadrille", "{}: cannot be written: {}").format(path, error.strerror), "failure", str(path)) from error
 
 
 #: The properties of every mesh object besides its settings: type, name, group and description.
@@ -275,11 +280,8 @@ RESULT_PROPERTIES = (
     ("App::PropertyFloat", "LargestAspect", "Result", "Largest ratio of longest to shortest edge of a quad"),
     ("App::PropertyFloat", "IrregularPercent", "Result", "Inner nodes with more or fewer than four quads, percent"),
     ("App::PropertyFloat", "OutsidePercent", "Result", "Quads outside the industry limits, percent; not for warp or short sides"),
-    ("App::PropertyStringList", "FilledHoles", "Result", "Holes, pockets and bosses that are left out, with the faces they lie in"),
-    ("App::PropertyStringList", "CrossedEdges", "Result", "Smooth edges that quads cross, with their faces"),
-    ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each of these edges, as many on each"),
-    ("App::PropertyStringList", "PoorQuads", "Result", "Edges and faces with quads outside the industry limits or short sides, and why"),
-    ("App::PropertyStringList", "PoorCauses", "Hidden", "The cause of each entry of PoorQuads, as in reports"),
+    ("App::PropertyString", "Findings", "Hidden", "What is left out, crossed or kept, and what forces poor quads, as in reports (JSON)"),
+    ("App::PropertyVectorList", "CrossedLines", "Result", "Points along each smooth edge that quads cross, as many on each"),
     ("App::PropertyIntegerList", "FinerQuads", "Hidden", "Numbers of the quads whose sides may be short, as asked for"),
     ("App::PropertyFloat", "LeastSize", "Result", "Minimum size of the mesh, mm; sides under half of it count as short"),
     ("App::PropertyFloat", "Seconds", "Result", "Seconds that the mesher took, all threads together"),
@@ -402,11 +404,12 @@ def check_analysis(analysis) -> None:
     if analysis is None:
         return
     if not analysis.isDerivedFrom("Fem::FemAnalysis"):
-        raise Error(f"{analysis.Label}: is not a FEM analysis", "usage", analysis.Name)
+        raise Error(translate("Quadrille", "{}: is not a FEM analysis").format(analysis.Label), "usage", analysis.Name)
     for member in analysis.Group:
         if member.isDerivedFrom("Fem::FemMeshObject") and not _is_result_mesh(member):
             raise Error(
-                f"{analysis.Label}: already holds the mesh {member.Label}, and FreeCAD solves with one mesh only",
+                translate(
+                    "Quadrille", "{}: already holds the mesh {}, and FreeCAD solves with one mesh only").format(analysis.Label, member.Label),
                 "usage",
                 member.Name,
             )
@@ -458,10 +461,7 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.OutsidePercent = criteria.get("outside_percent", 0.0)
     shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
     mesh.LeastSize = 2 * shortest if shortest else 0.0
-    mesh.CrossedEdges = [f"{edge['name']} ({', '.join(dict.fromkeys(edge['faces']))})" for edge in report.get("crossed_edges", ())]
+    mesh.Findings = findings.as_text(report)
     mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("crossed_edges", ()) for point in edge["line"]]
-    mesh.FilledHoles = [f"{hole['kind']} {hole['diameter']:.4g} ({', '.join(hole['in'])})" for hole in report.get("filled_holes", ())]
-    mesh.PoorQuads = [f"{found['name']}: {found['quads']}, {found['why']}" for found in report.get("poor_quads", ())]
-    mesh.PoorCauses = [found["cause"] for found in report.get("poor_quads", ())]
     mesh.FinerQuads = report.get("finer_quads", [])
     mesh.Seconds = sum(report.get("seconds", {}).values())

@@ -20,7 +20,7 @@ from ..core.command import CommandJob, scratch_folder
 from ..core.errors import Error
 from ..core.jobs import find_mesher, in_own_words
 from ..core.prepared import Prepared
-from ..document import state
+from ..document import state, translate
 from ..document.shapes import pairs
 from . import views
 
@@ -58,7 +58,7 @@ def make_middle(part, analysis=None, partial: bool = False, join: bool = False, 
         Error: with one sentence; the document is then unchanged.
     """
     if analysis is not None and not analysis.isDerivedFrom("Fem::FemAnalysis"):
-        raise Error(f"{analysis.Label}: is not a FEM analysis", "usage", analysis.Name)
+        raise Error(translate("Quadrille", "{}: is not a FEM analysis").format(analysis.Label), "usage", analysis.Name)
     result = _prepared.take(_key(part, partial, join)) or _compute(part, partial, join)
     middle = part.Document.addObject("Part::FeaturePython", name)
     MiddleSurface(middle)
@@ -260,7 +260,8 @@ def _compute(part, partial: bool, join: bool) -> _Result:
     """Runs the command. Raises Error with the command's sentence if it fails."""
     shape, label = state.shape_of(part), part.Label
     if not shape.Solids:
-        raise Error(f"{label}: has no solid; a middle surface is made of solids", "usage", part.Name)
+        raise Error(translate(
+            "Quadrille", "{}: has no solid; a middle surface is made of solids").format(label), "usage", part.Name)
     with scratch_folder() as folder:
         model, surface = (os.path.join(folder, file) for file in ("part.brep", "middle.brep"))
         shape.exportBrep(model)

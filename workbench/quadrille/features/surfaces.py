@@ -16,7 +16,7 @@ from ..core.errors import Error
 from ..core.jobs import FemJob, find_mesher, in_own_words
 from ..core.prepared import Prepared
 from ..core.setting_table import ORDERS, MeshSettings, default_size
-from ..document import groups, state, undo
+from ..document import groups, state, translate, undo
 from ..solvers import results, wrappers
 from . import views
 from . import mesh_object as core
@@ -40,9 +40,10 @@ def check_surface(surface, analysis=None) -> None:
     """Raises Error if `surface` is not a mesh object that can be meshed, or if the analysis cannot take its mesh."""
     label, name = getattr(surface, "Label", surface), getattr(surface, "Name", "")
     if not is_mesh_object(surface):
-        raise Error(f"{label}: is not a mesh object; select one, such as an STL file that was imported", "usage", name)
+        raise Error(translate(
+            "Quadrille", "{}: is not a mesh object; select one, such as an STL file that was imported").format(label), "usage", name)
     if not surface.Mesh.CountFacets:
-        raise Error(f"{label}: has no triangles to mesh", "usage", name)
+        raise Error(translate("Quadrille", "{}: has no triangles to mesh").format(label), "usage", name)
     core.check_analysis(analysis)
 
 
@@ -146,14 +147,16 @@ class SurfaceJob(FemJob):
 def start(mesh, command: Optional[str] = None, outputs: Sequence[Union[str, Path]] = ()) -> SurfaceJob:
     """Starts to mesh the surface of a mesh object with the settings in its properties."""
     if mesh.Surface is None:
-        raise Error(f"{mesh.Label}: the mesh object that it meshes is gone", "usage", mesh.Name)
+        raise Error(translate(
+            "Quadrille", "{}: the mesh object that it meshes is gone").format(mesh.Label), "usage", mesh.Name)
     check_surface(mesh.Surface)
     return _start(mesh.Surface, asked_of(mesh), command, outputs)
 
 
 def _start(surface, asked: Asked, command: Optional[str], outputs: Sequence[Union[str, Path]] = ()) -> SurfaceJob:
     if not (asked.size > 0 and math.isfinite(asked.size)):
-        raise Error(f"{surface.Label}: cannot be meshed at size {asked.size:g}: it must be larger than 0", "usage", "Size")
+        raise Error(translate(
+            "Quadrille", "{}: cannot be meshed at size {:g}: it must be larger than 0").format(surface.Label, asked.size), "usage", "Size")
     return SurfaceJob(surface, asked, command, outputs).start()
 
 
@@ -248,7 +251,8 @@ class SurfaceMesh:
     def remesh(obj, progress: Optional[Progress] = None, command: Optional[str] = None) -> None:
         """Meshes the surface again with the settings in the properties. On an Error the object keeps its old mesh."""
         if obj.Surface is None:
-            raise Error(f"{obj.Label}: the mesh object that it meshes is gone", "usage", obj.Name)
+            raise Error(translate(
+                "Quadrille", "{}: the mesh object that it meshes is gone").format(obj.Label), "usage", obj.Name)
         check_surface(obj.Surface)
         job = _meshed(obj.Surface, asked_of(obj), progress, command)
         fem_mesh, report = job.result()

@@ -8,13 +8,12 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
+from ..document import translate as translate
 from ..document.shapes import pairs
 
 _FOLDER = Path(__file__).resolve().parents[2]
 ICONS = _FOLDER / "icons"
 TRANSLATIONS = _FOLDER / "translations"
-
-translate = FreeCAD.Qt.translate
 
 
 def QT_TRANSLATE_NOOP(_context: str, text: str) -> str:  # Qt's tools look for this name

@@ -9,6 +9,7 @@ from PySide import QtGui
 from ..core import quality
 from ..core.units import digits
 from ..document import groups, picks
+from ..document.findings import findings_of
 from . import mesh_clicks, overlays, translate
 
 
@@ -81,7 +82,7 @@ class ElementView(QtGui.QWidget):
 
     def _poor(self):
         """The edges and faces whose quads are outside the limits, and the cause."""
-        return [(entry.split(":")[0], cause) for entry, cause in zip(self._mesh.PoorQuads, self._mesh.PoorCauses)]
+        return [(found["name"], found["cause"]) for found in findings_of(self._mesh)["poor_quads"]]
 
     def show_element(self, index: int) -> None:
         """Describes an element, by its index in the measures."""

@@ -79,13 +79,13 @@ class EntryRows(RowList):
 
     def add(self, name: str, entries: Dict[str, str]) -> None:
         """Adds entries of a property, by place. They replace existing entries with the same place."""
-        shown: Dict[str, List[str]] = {other: [] for other in PROPERTIES}
-        for row in self._rows:
-            if row.property != name or row.place not in entries:
-                shown[row.property] += row.entries()
-        shown[name] += [f"{place}={text}" for place, text in entries.items()]
-        self.show_all(shown)
-        self._changed()
+        self._show_changed([row for row in self._rows if row.property != name or row.place not in entries], name,
+                           [f"{place}={text}" for place, text in entries.items()])
+
+    def keep(self, names: Sequence[str], on: bool) -> None:
+        """Adds faces and edges to those to keep, or takes them away."""
+        others = [name for name in self.names() if name not in names]
+        self._show_changed([row for row in self._rows if row.property != NAMES], NAMES, [*others, *names] if on else others)
 
     def select(self, name: str, place: str):
         """Selects the numbers of an entry, for typing others. Returns their field."""
@@ -95,9 +95,13 @@ class EntryRows(RowList):
         return row.box
 
     def _remove(self, number: int) -> None:
-        rest: Dict[str, List[str]] = {name: [] for name in PROPERTIES}
-        for index, row in enumerate(self._rows):
-            if index != number:
-                rest[row.property] += row.entries()
-        self.show_all(rest)
+        self._show_changed([row for index, row in enumerate(self._rows) if index != number])
+
+    def _show_changed(self, rows: Sequence[_Row], name: str = NAMES, more: Sequence[str] = ()) -> None:
+        """Shows these rows only, and more entries of a property."""
+        shown: Dict[str, List[str]] = {other: [] for other in PROPERTIES}
+        for row in rows:
+            shown[row.property] += row.entries()
+        shown[name] += more
+        self.show_all(shown)
         self._changed()

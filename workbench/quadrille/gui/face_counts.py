@@ -3,8 +3,9 @@
 
 from typing import Mapping
 
-import FreeCADGui
 from PySide import QtGui
+
+from . import mesh_clicks
 
 
 class FaceCounts(QtGui.QListWidget):
@@ -44,8 +45,5 @@ class FaceCounts(QtGui.QListWidget):
             self.addItem(f"{name}: {max(1, round(self._counts[name]))}")
 
     def _select(self, item) -> None:
-        part = self._mesh.Shape
-        if part is None:
-            return
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(part.Document.Name, part.Name, item.text().partition(":")[0])
+        if self._mesh.Shape is not None:
+            mesh_clicks.select(self._mesh.Shape, [item.text().partition(":")[0]])

@@ -8,8 +8,9 @@ from typing import Callable, Dict, List, Optional, Sequence, Tuple
 
 import FreeCADGui
 
-from ..document import picks
-from ..document.state import is_quad_mesh
+from ..core.errors import Error
+from ..document import picks, state
+from . import tell, translate
 
 #: Where selected objects were clicked, by the names of document and object as FreeCAD passes them.
 _clicks: Dict[Tuple[str, str], List[Sequence[float]]] = {}
@@ -56,7 +57,7 @@ def picked(document) -> List[picks.Pick]:
     found: List[picks.Pick] = []
     for pick in picks.picks_of(FreeCADGui.Selection.getSelectionEx(document.Name, 0)):
         mesh = picks.along(pick)[-1]
-        if not is_quad_mesh(mesh):
+        if not state.is_quad_mesh(mesh):
             found.append(pick)
             continue
         inner = pick[1][:pick[1].rfind(".") + 1]
@@ -64,6 +65,27 @@ def picked(document) -> List[picks.Pick]:
         names = [name for name in (picks.on_mesh(mesh, point) for point in points) if name]
         found += [(pick[0], inner + name) for name in dict.fromkeys(names)] or [(pick[0], inner)]
     return list(dict.fromkeys(found))
+
+
+def picked_on(mesh, *kinds: str) -> List[str]:
+    """The names of the selected elements of these kinds on the part of a mesh. Shows a message if there are none."""
+    try:
+        part = state.part_of(mesh)
+        names = picks.elements_of(part, picked(mesh.Document))
+    except Error as error:
+        tell(str(error))
+        return []
+    found = [name for name in names if name.startswith(kinds)]
+    if not found:
+        tell(translate("Quadrille", "Select them on {} in the 3-D view first.").format(part.Label))
+    return found
+
+
+def select(part, names: Sequence[str]) -> None:
+    """Selects faces, edges or vertices of a part, and nothing else."""
+    FreeCADGui.Selection.clearSelection()
+    for name in names:
+        FreeCADGui.Selection.addSelection(part.Document.Name, part.Name, name)
 
 
 def toggle(mesh) -> None:

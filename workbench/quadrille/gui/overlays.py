@@ -4,17 +4,22 @@
 FreeCAD's own element colors are not used, since FreeCAD 0.20 assigns them to the wrong elements of second-order meshes.
 """
 
-from typing import Dict, Tuple
+from typing import Dict, Sequence, Tuple
 
+import FreeCAD
 import numpy as np
 
 from ..core import quality
+from ..document.findings import findings_of
+from ..document.shapes import has_element
 from . import translate
 
 #: Larger numbers of arrows only blacken the view: larger meshes show some of their normals.
 MOST_ARROWS = 3000
 QUALITY, NORMALS, ELEMENT, STALE = "QuadrilleQuality", "QuadrilleNormals", "QuadrilleElement", "QuadrilleStale"
-FREE, CROSSED = "QuadrilleFree", "QuadrilleCrossedEdges"
+FREE, CROSSED, MARKS = "QuadrilleFree", "QuadrilleCrossedEdges", "QuadrilleMarks"
+#: Number of points along a dotted edge.
+_PIECES = 33
 #: The scene nodes shown, by the names of document and mesh object, and by kind.
 _shown: Dict[tuple, object] = {}
 #: The display modes that meshes had before they were colored.
@@ -161,16 +166,10 @@ def show_stale(mesh) -> None:
 
     hide(mesh, STALE)
     box = mesh.FemMesh.BoundBox
-    place = coin.SoTranslation()
-    place.translation.setValue(box.Center.x, box.Center.y, box.ZMax + 0.1 * box.DiagonalLength)
-    light, color = _plain_color((1.0, 1.0, 1.0))
-    font = coin.SoFont()
-    font.size = 20
-    text = coin.SoText2()
-    text.string.setValue(f"{mesh.Label}: {translate('QuadrilleStatus', mesh.Status)}")
-    text.justification = coin.SoText2.CENTER
+    place = (box.Center.x, box.Center.y, box.ZMax + 0.1 * box.DiagonalLength)
+    text = f"{mesh.Label}: {translate('QuadrilleStatus', mesh.Status)}"
     in_front = coin.SoAnnotation()
-    for node in (light, color, place, font, text):
+    for node in (*_plain_color((1.0, 1.0, 1.0)), *_label(place, text)):
         in_front.addChild(node)
     _add(mesh, STALE, _group(in_front))
 
@@ -197,20 +196,68 @@ def show_free(mesh, measured: quality.ElementQuality) -> None:
 
 def show_crossed(mesh) -> None:
     """Dots the smooth edges that quads cross."""
-    from pivy import coin
-
     hide(mesh, CROSSED)
-    edges = len(mesh.CrossedEdges)
+    edges = len(findings_of(mesh)["crossed_edges"])
     if not edges or len(mesh.CrossedLines) % edges:
         return
     points = np.array([tuple(point) for point in mesh.CrossedLines])
+    _add(mesh, CROSSED, _group(*_dotted(points, [len(points) // edges] * edges, 3)))
+
+
+def _dotted(points: np.ndarray, counts: Sequence[int], width: int) -> list:
+    """Dotted lines through so many points each."""
+    from pivy import coin
+
     light, color = _plain_color((0.9, 0.0, 0.6))
     style = coin.SoDrawStyle()
-    style.lineWidth = 3
+    style.lineWidth = width
     style.linePattern = 0x0F0F
     lines = coin.SoLineSet()
-    lines.numVertices.setValues(0, edges, [len(points) // edges] * edges)
-    _add(mesh, CROSSED, _group(light, color, style, _coordinates(points), lines))
+    lines.numVertices.setValues(0, len(counts), list(counts))
+    return [light, color, style, _coordinates(points), lines]
+
+
+def _label(place, text: str, beside: bool = False) -> list:
+    """A text at a place, as large from near as from far: centered there, or to the right of it."""
+    from pivy import coin
+
+    shift, font, words = coin.SoTranslation(), coin.SoFont(), coin.SoText2()
+    shift.translation.setValue(*place)
+    font.size = 20
+    words.string.setValue(text)
+    words.justification = coin.SoText2.LEFT if beside else coin.SoText2.CENTER
+    return [shift, font, words]
+
+
+def mark(mesh, shape, names: Sequence[str]):
+    """Dots faces, edges and vertices of the shape that was meshed, in front of everything, and names them. Returns the box around
+    them; None if the shape has none of them."""
+    from pivy import coin
+
+    hide(mesh, MARKS)
+    elements = {name: shape.getElement(name) for name in names if has_element(shape, name)}
+    if not elements:
+        return None
+    lines = [[tuple(point) for point in (edge.discretize(_PIECES) if edge.Length > 0 else [])]
+             for element in elements.values() for edge in element.Edges]
+    dots = coin.SoDrawStyle()
+    dots.pointSize = 9
+    in_front = coin.SoAnnotation()
+    box = FreeCAD.BoundBox()
+    points = np.array([point for line in lines for point in line]).reshape(-1, 3)
+    for node in (*_dotted(points, [len(line) for line in lines if line], 5), dots):
+        in_front.addChild(node)
+    for name, element in elements.items():
+        box.add(element.BoundBox)
+        one = coin.SoSeparator()
+        if name.startswith("Vertex"):
+            one.addChild(_coordinates(np.array([tuple(element.Point)])))
+            one.addChild(coin.SoPointSet())
+        for node in _label(element.BoundBox.Center, f"  {name}", True):
+            one.addChild(node)
+        in_front.addChild(one)
+    _add(mesh, MARKS, _group(in_front))
+    return box
 
 
 def hide_normals(mesh) -> None:

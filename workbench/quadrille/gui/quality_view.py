@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shows the quality of a mesh: table, histogram, criteria, colors in the 3-D view, and a list of the worst elements."""
 
-from typing import Callable, Optional
+from typing import Callable, Optional, Sequence
 
 import FemGui
 import FreeCADGui
+import numpy as np
 from PySide import QtCore, QtGui
 
 from ..core import quality
 from ..core.units import digits
+from ..document import groups
 from ..solvers import checklist
-from . import QT_TRANSLATE_NOOP, do, drawn_icon, overlays, path_of, standard_buttons, transaction, translate
+from . import QT_TRANSLATE_NOOP, camera, do, drawn_icon, overlays, path_of, standard_buttons, transaction, translate
 from .element_view import Ball, ElementView
+from .findings_table import FindingsTable
 from .histogram import Histogram
+from .tables import fill, table
 from .wheel import calm
 
 #: What is missing before a mesh can be solved, by the names of the checks.
@@ -47,8 +51,9 @@ MEASURES = {
 class QualityWidget(QtGui.QWidget):
     """The quality of one mesh object. The first table shows the mesher's numbers; the rest is measured here."""
 
-    def __init__(self, mesh, refine: Callable[[Ball], None]) -> None:
-        """refine: called with a place that the user wants finer."""
+    def __init__(self, mesh, refine: Callable[[Ball], None], keep: Callable[[Sequence[str], bool], Sequence[str]]) -> None:
+        """refine: called with a place that the user wants finer. keep: adds faces and edges to those to keep, or takes them away, and
+        returns all of them."""
         super().__init__()
         self.mesh = mesh
         self._measured: Optional[quality.ElementQuality] = None
@@ -59,11 +64,13 @@ class QualityWidget(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("QuadrilleStatus")
         self.status.setWordWrap(True)
-        self.crossed, self.filled, self.poor, self.ready = (
-            _note(name) for name in ("QuadrilleCrossed", "QuadrilleFilled", "QuadrillePoor", "QuadrilleReady"))
-        self.table = _table("QuadrilleQualityTable", 2)
+        self.ready = QtGui.QLabel()
+        self.ready.setObjectName("QuadrilleReady")
+        self.ready.setWordWrap(True)
+        self.findings = FindingsTable(mesh, self._show_poor, lambda names, on: self.findings.show_kept(keep(names, on)))
+        self.table = table("QuadrilleQualityTable", 2)
         self.table.horizontalHeader().setVisible(False)
-        self.criteria = _table("QuadrilleCriteria", 4)
+        self.criteria = table("QuadrilleCriteria", 4)
         self.criteria.setHorizontalHeaderLabels([
             translate("Quadrille", "Criterion"), translate("Quadrille", "Fail"), translate("Quadrille", "Worst"),
             translate("Quadrille", "Mean")])
@@ -97,8 +104,8 @@ class QualityWidget(QtGui.QWidget):
         by.addWidget(self.color)
         by.addWidget(self.measure, 1)
         layout.addWidget(self.status)
-        for note in (self.crossed, self.filled, self.poor, self.ready):
-            layout.addWidget(note)
+        layout.addWidget(self.findings)
+        layout.addWidget(self.ready)
         layout.addWidget(self.table)
         layout.addWidget(self.histogram)
         layout.addWidget(self.criteria)
@@ -123,7 +130,7 @@ class QualityWidget(QtGui.QWidget):
         if not self.mesh.FemMesh.FaceCount:
             return
         overlays.hide(self.mesh, overlays.ELEMENT)
-        self._fill_table()
+        self._filltable()
         self._timer.start()
         if self.color.isChecked():
             self._color(True)
@@ -136,9 +143,9 @@ class QualityWidget(QtGui.QWidget):
             self._measured = quality.measure(self.mesh.FemMesh, self.mesh.LeastSize, self.mesh.FinerQuads)
         return self._measured
 
-    def _fill_table(self) -> None:
+    def _filltable(self) -> None:
         mesh = self.mesh
-        _fill(self.table, (
+        fill(self.table, (
             (translate("Quadrille", "Quads"), f"{mesh.QuadCount}"),
             (translate("Quadrille", "Nodes"), f"{mesh.NodeCount}"),
             (translate("Quadrille", "q: smallest, mean"), f"{mesh.WorstQuality:.3f}, {mesh.MeanQuality:.3f}"),
@@ -150,26 +157,27 @@ class QualityWidget(QtGui.QWidget):
         outside = 5  # row
         self.table.item(outside, 0).setToolTip(translate("Quadrille", "Without warp and short sides, which the table below counts"))
         self.show_status(mesh.Status)
-        self._list_forced()
+        self.findings.refresh()
+        if self.mesh.ViewObject is not None:
+            overlays.show_crossed(self.mesh)
 
     def show_status(self, status: str) -> None:
         """Shows a status, one of those that the property Status has."""
         self.status.setText(translate("QuadrilleStatus", status))
 
-    def _list_forced(self) -> None:
-        """Shows which smooth edges quads cross, and the causes of short sides."""
-        for label, entries, text in (
-                (self.crossed, self.mesh.CrossedEdges,
-                 translate("Quadrille",
-                           "Smooth edges that quads cross (dotted in the view, without a group): {}; edges listed in Keep are not crossed")),
-                (self.filled, self.mesh.FilledHoles, translate("Quadrille", "Holes, pockets and bosses that are left out: {}")),
-                (self.poor, self.mesh.PoorQuads,
-                 translate("Quadrille", "Edges and faces whose quads are outside the limits or have short sides: {}"))):
-            label.setText(text.format(len(entries)))
-            label.setToolTip("\n".join(entries))
-            label.setVisible(bool(entries))
-        if self.mesh.ViewObject is not None:
-            overlays.show_crossed(self.mesh)
+    def _show_poor(self, name: str) -> bool:
+        """Zooms to the worst quad on an edge or face. False if there is none."""
+        measured, nodes = self.measured(), np.array(sorted(groups.PartGroups(self.mesh.FemMesh).nodes(name)), int)
+        there = np.flatnonzero(np.isin(measured.nodes, nodes).sum(axis=1) >= (2 if name.startswith("Edge") else 4))
+        if not there.size:
+            return False
+        goodness = np.min([measured.goodness(criterion)[there] for criterion in measured.limits if criterion != "warp"], axis=0)
+        self._show_index(int(there[goodness.argmin()]))
+        return True
+
+    def _show_index(self, index: int) -> None:
+        show_element(self.mesh, self.measured(), index)
+        self.element.show_element(index)
 
     def fill_elements(self) -> None:
         """Measures each element, for the histogram, the criteria and the worst ones."""
@@ -189,7 +197,7 @@ class QualityWidget(QtGui.QWidget):
             told = f"{limit:.2g}" if name == "min_length" else f"{limit:g}"
             rows.append((f"{translate('Quadrille', MEASURES[name])} {'≤' if limit > ideal else '≥'} {told}",
                          f"{int(measured.fails(name).sum())}", f"{worst:.3g}", f"{values.mean():.2g}"))
-        _fill(self.criteria, rows)
+        fill(self.criteria, rows)
         self._tell_what_is_missing()
         self._list_worst()
 
@@ -239,8 +247,7 @@ class QualityWidget(QtGui.QWidget):
         if row < 0 or not self.mesh.FemMesh.FaceCount:
             return
         worst = self.measured().worst(WORST, self.measure.itemData(self.measure.currentIndex()))
-        show_element(self.mesh, self.measured(), int(worst[row]))
-        self.element.show_element(int(worst[row]))
+        self._show_index(int(worst[row]))
 
     def _show_criterion(self, row: int, _column: int = 0) -> None:
         """Lists and colors the elements by the criterion that was clicked."""
@@ -251,82 +258,26 @@ class QualityWidget(QtGui.QWidget):
         """Removes colors and highlights from the view, and stops measuring."""
         self._timer.stop()
         self.element.release()
+        self.findings.release()
         try:
             if self.mesh.ViewObject is not None:
-                for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE, overlays.CROSSED):
+                for kind in (overlays.QUALITY, overlays.ELEMENT, overlays.FREE, overlays.CROSSED, overlays.MARKS):
                     overlays.hide(self.mesh, kind)
         except ReferenceError:  # the object or its document was deleted
             pass
 
 
-def _note(name: str):
-    label = QtGui.QLabel()
-    label.setObjectName(name)
-    label.setWordWrap(True)
-    return label
-
-
-def _table(name: str, columns: int):
-    table = QtGui.QTableWidget(0, columns)
-    table.setObjectName(name)
-    font = table.font()
-    if font.pointSizeF() > 0:
-        font.setPointSizeF(0.9 * font.pointSizeF())
-        table.setFont(font)
-        table.horizontalHeader().setFont(font)
-    table.verticalHeader().setVisible(False)
-    table.horizontalHeader().setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
-    table.horizontalHeader().setMinimumSectionSize(16)
-    table.horizontalHeader().setSectionResizeMode(0, QtGui.QHeaderView.Stretch)  # names wrap, numbers do not
-    table.verticalHeader().setMinimumSectionSize(20)
-    table.verticalHeader().setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
-    table.verticalHeader().sectionResized.connect(lambda *_: _fit(table))
-    table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
-    table.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-    table.setHorizontalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
-    table.setVerticalScrollBarPolicy(QtCore.Qt.ScrollBarAlwaysOff)
-    return table
-
-
-def _fill(table, rows) -> None:
-    table.setRowCount(len(rows))
-    for row, texts in enumerate(rows):
-        for column, text in enumerate(texts):
-            table.setItem(row, column, QtGui.QTableWidgetItem(text))
-    _fit(table)
-
-
-def _fit(table) -> None:
-    """Makes the table as high as its rows."""
-    head = table.horizontalHeader().sizeHint().height() if table.horizontalHeader().isVisibleTo(table) else 0
-    table.setFixedHeight(table.verticalHeader().length() + head + 4)
-
-
 def show_element(mesh, measured: quality.ElementQuality, index: int) -> None:
     """Draws a frame around an element and moves the camera in front of it."""
     overlays.frame_element(mesh, measured, index)
-    view = FreeCADGui.getDocument(mesh.Document.Name).ActiveView
-    if not hasattr(view, "getCameraNode"):
-        return
-    from pivy import coin
-
-    camera = view.getCameraNode()
-    reach = 12 * float(measured.lengths[index])
-    center, normal = measured.centers[index], measured.normals[index]
-    place = coin.SbVec3f(*(center + reach * normal))
-    camera.position.setValue(place)
-    up = coin.SbVec3f(0, 0, 1) if abs(normal[2]) < 0.9 else coin.SbVec3f(0, 1, 0)
-    camera.pointAt(coin.SbVec3f(*center), up)
-    camera.focalDistance.setValue(reach)
-    if hasattr(camera, "height"):
-        camera.height.setValue(reach)
+    camera.look_at(mesh, measured.centers[index], 12 * float(measured.lengths[index]), measured.normals[index])
 
 
 class QualityPanel:
     """The task panel of the command Mesh quality."""
 
     def __init__(self, mesh) -> None:
-        self.quality = QualityWidget(mesh, self._refine)
+        self.quality = QualityWidget(mesh, self._refine, self._keep)
         self._mesh = mesh
         self.form = self.quality
         calm(self.form)
@@ -336,10 +287,18 @@ class QualityPanel:
 
     def _refine(self, ball: Ball) -> None:
         """Adds a size at a place, which the next meshing follows."""
-        with transaction(self._mesh.Document, "Refine quad mesh"):
-            do("import quadrille.freecad")
-            others = [entry for entry in self._mesh.SizeIn if entry.rpartition("=")[0] != ball.place]
-            do(f"{path_of(self._mesh)}.SizeIn = {[*others, f'{ball.place}={digits(ball.size)}']!r}")
+        others = [entry for entry in self._mesh.SizeIn if entry.rpartition("=")[0] != ball.place]
+        self._set("Refine quad mesh", "SizeIn", [*others, f"{ball.place}={digits(ball.size)}"])
+
+    def _keep(self, names: Sequence[str], on: bool) -> Sequence[str]:
+        """Adds faces and edges to those that the next meshing keeps, or takes them away."""
+        others = [name for name in self._mesh.Keep if name not in names]
+        self._set("Keep features", "Keep", [*others, *names] if on else others)
+        return self._mesh.Keep
+
+    def _set(self, step: str, name: str, entries: Sequence[str]) -> None:
+        with transaction(self._mesh.Document, step):
+            do(f"{path_of(self._mesh)}.{name} = {entries!r}")
             self._mesh.Document.recompute()
 
     def getStandardButtons(self):

@@ -7,7 +7,7 @@ document with the mesh, or by OK, each as one undo step. Cancel undoes all of it
 
 import time
 from functools import partial
-from typing import Any, Callable, Dict, Optional
+from typing import Any, Callable, Dict, Optional, Sequence
 
 import FreeCAD
 import FreeCADGui
@@ -136,7 +136,7 @@ class MeshPanel:
         self.log.setMaximumHeight(80)
         self.log.hide()  # until there is something to say
         self.log.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
-        self.quality = QualityWidget(self.mesh, self._refine_here)
+        self.quality = QualityWidget(self.mesh, self._refine_here, self._keep)
         self._lay_out()
         self.suggest.clicked.connect(self._suggest)
         self.take_selection.clicked.connect(self._take_selection)
@@ -397,28 +397,15 @@ class MeshPanel:
         self._suggests = True
         self._update_estimate()
 
-    def _picked(self, *kinds: str) -> list:
-        """The names of the selected elements of these kinds on the part. Shows a message if there are none."""
-        try:
-            part = state.part_of(self.mesh)
-            names = picks.elements_of(part, mesh_clicks.picked(self.mesh.Document))
-        except Error as error:
-            tell(str(error))
-            return []
-        found = [name for name in names if name.startswith(kinds)]
-        if not found:
-            tell(translate("Quadrille", "Select them on {} in the 3-D view first.").format(part.Label))
-        return found
-
     def _take_selection(self) -> None:
-        names = self._picked("Face")
+        names = mesh_clicks.picked_on(self.mesh, "Face")
         if names:
             self._anew.add("Faces")
             self.settings["Faces"].show(names)
             self._update_estimate()
 
     def _refine_selection(self) -> None:
-        names = self._picked("Face", "Edge", "Vertex")
+        names = mesh_clicks.picked_on(self.mesh, "Face", "Edge", "Vertex")
         if not names:
             return
         usual = self._told(self._usual_size)
@@ -432,8 +419,13 @@ class MeshPanel:
         self.form.bring(self.entries.select("SizeIn", ball.place))
         self._refined_here = True
 
+    def _keep(self, names: Sequence[str], on: bool) -> Sequence[str]:
+        """Adds faces and edges to those to keep, or takes them away. Returns all that are to be kept."""
+        self.entries.keep(names, on)
+        return self.entries.names()
+
     def _divide_selection(self) -> None:
-        names = self._picked("Edge")
+        names = mesh_clicks.picked_on(self.mesh, "Edge")
         usual = self._told(self._usual_size) if names else None
         if usual is not None:
             shape = self.mesh.Shape.Shape
