@@ -13,8 +13,8 @@ namespace quadrille {
 /// least size that has a side of the quad, else its face, with the corner of less than 40 degrees that the
 /// quad lies in, or the edges that come close there. One entry for each edge, and for each face and reason,
 /// those with the most quads first. The quads that only warp are left out: the curvature of the part does
-/// that, and so are those that are only flat or low, in the rows that `layers` requests along edges. Linear in the
-/// mesh.
+/// that, and so are those that are only flat or low, in the rows that `layers` requests along edges. Linear
+/// in the mesh.
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
                                              const ByElement<SizeLayers>& layers = {});
 
