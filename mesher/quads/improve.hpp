@@ -61,7 +61,8 @@ void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Impro
 
 /// Moves the free nodes on the surface. First come elements with a non-positive Jacobian, which are
 /// untangled. Then Laplacian sweeps accept a move only if the worst element around the node does not get
-/// worse (or stays above a floor). Last come the worst elements, node by node.
+/// worse (or stays above a floor), and keep the first row along arcs that are cut out of the face no thicker
+/// than its quads are long. Last come the worst elements, node by node.
 void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context);
 

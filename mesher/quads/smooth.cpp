@@ -150,11 +150,56 @@ struct SmoothedMesh {
   std::vector<double> quality;  ///< scaled Jacobian of each quad
 };
 
+/// The node on the boundary near which a node is kept.
+struct Leash {
+  int to = -1;  ///< -1 = none
+  double length = std::numeric_limits<double>::infinity();
+};
+
+/// The shorter side of the boundary at a fixed node where the boundary bends into the mesh, as along an arc
+/// that is cut out of a face; 0 elsewhere, and at corners.
+double side_on_notch(const SmoothedMesh& mesh, int node) {
+  constexpr double least_turn = 0.1, largest_turn = 1.2;
+  double angle = 0, shortest = std::numeric_limits<double>::infinity();
+  for (const Side corner : mesh.corners[node]) {
+    const auto& q = mesh.quads[element_of(corner)];
+    const int next = q[(index_of(corner) + 1) & 3], before = q[(index_of(corner) + 3) & 3];
+    const Vector3 b = mesh.points[next] - mesh.points[node], d = mesh.points[before] - mesh.points[node];
+    angle += std::atan2(b.cross(d).norm(), b.dot(d));
+    if (!mesh.free[next]) shortest = std::min(shortest, b.norm());
+    if (!mesh.free[before]) shortest = std::min(shortest, d.norm());
+  }
+  return angle > M_PI + least_turn && angle < M_PI + largest_turn && std::isfinite(shortest) ? shortest : 0;
+}
+
+/// Beside such arcs, quads are to be no thicker than they are long: stresses fall off there within a share of
+/// the radius, and averages spread the rows evenly as far as the next boundary.
+std::vector<Leash> leashes_of(const SmoothedMesh& mesh) {
+  std::vector<Leash> leashes(mesh.points.size());
+  for (int node = 0; node < static_cast<int>(leashes.size()); ++node) {
+    mesh.check(node);
+    if (mesh.free[node]) continue;
+    const double length = side_on_notch(mesh, node);
+    if (!(length > 0)) continue;
+    for (const Side corner : mesh.corners[node]) {
+      const auto& q = mesh.quads[element_of(corner)];
+      for (const int k : {1, 3}) {
+        const int other = q[(index_of(corner) + k) & 3];
+        if (mesh.free[other] && length < leashes[other].length) leashes[other] = {node, length};
+      }
+    }
+  }
+  return leashes;
+}
+
 /// Sweeps of averages, in tangent planes. Nodes see the moves of the nodes before them.
 class Sweeps {
  public:
   explicit Sweeps(SmoothedMesh& mesh)
-      : mesh_(mesh), active_(mesh.points.size(), 1), next_active_(mesh.points.size(), 0) {
+      : mesh_(mesh),
+        active_(mesh.points.size(), 1),
+        next_active_(mesh.points.size(), 0),
+        leashes_(leashes_of(mesh)) {
     // Mark nodes where the surface turns far from one node to the next, as around a tube of four coarse
     // quads. There, averages in tangent planes would pull a node further to the side to which it leans.
     constexpr double least_cosine = 0.1;
@@ -193,6 +238,16 @@ class Sweeps {
     return true;
   }
 
+  /// Moves a place towards the end of the leash until that is long enough.
+  void keep_near(const Leash& leash, const TangentPlan& plan, double& x, double& y) const {
+    if (leash.to < 0) return;
+    const auto [end_x, end_y] = plan.coordinates(mesh_.points[leash.to]);
+    const double distance = std::hypot(x - end_x, y - end_y);
+    if (!(distance > leash.length)) return;
+    x = end_x + (x - end_x) * leash.length / distance;
+    y = end_y + (y - end_y) * leash.length / distance;
+  }
+
   /// One step of a sweep: moves the node towards the mean of the nodes of its quads, and beyond. Opposite
   /// corners count half as much as neighbors. On graded meshes, this weight and the overshoot reach in 3
   /// sweeps the mean quality that plain averages of neighbors reach in 8. Weights by length or area, and
@@ -211,6 +266,7 @@ class Sweeps {
     x *= share;
     y *= share;
     size2 /= plan.count();
+    keep_near(leashes_[node], plan, x, y);
     if (x * x + y * y < still_share * still_share * size2) return false;
     const double floor = std::min(mesh_.least_round(node), good_jacobian);
     if (!plan.fits(x, y, floor)) {
@@ -232,6 +288,7 @@ class Sweeps {
 
   SmoothedMesh& mesh_;
   std::vector<char> active_, next_active_, turns_sharply_;
+  std::vector<Leash> leashes_;  ///< (points)
 };
 
 enum class Goal { raise, untangle };

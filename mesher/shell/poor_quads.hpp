@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -12,7 +13,9 @@ namespace quadrille {
 /// least size that has a side of the quad, else its face, with the corner of less than 40 degrees that the
 /// quad lies in, or the edges that come close there. One entry for each edge, and for each face and reason,
 /// those with the most quads first. The quads that only warp are left out: the curvature of the part does
-/// that. Linear in the mesh.
-std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh);
+/// that, and so are those that are only flat or low, in the rows that `layers` requests along edges. Linear
+/// in the mesh.
+std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
+                                             const ByElement<SizeLayers>& layers = {});
 
 }  // namespace quadrille

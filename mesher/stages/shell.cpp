@@ -174,7 +174,7 @@ ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
   name_placed_nodes(prepared, result);
   result.size_min = prepared.limits.size_min;
   if (prepared.limits.least < prepared.limits.size_min) result.finer_quads = finer_quads(result, run.field);
-  result.poor_quads = poor_quads(shape, result);
+  result.poor_quads = poor_quads(shape, result, prepared.options.sizing.layers);
   return result;
 }
 

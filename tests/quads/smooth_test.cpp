@@ -9,6 +9,7 @@
 #include "mesher/mesh/quality.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/shell/validate.hpp"
+#include "tests/support/quad_grid.hpp"
 #include "tests/support/sample_quads.hpp"
 
 namespace quadrille {
@@ -80,6 +81,26 @@ TEST(Smooth, NeverMovesFixedNodes) {
     EXPECT_GT(moved, 0) << name;
     EXPECT_EQ(after.mesh.quads, before.mesh.quads) << name;
   }
+}
+
+TEST(Smooth, KeepsRowsBesideConcaveArcsThin) {
+  // A quarter of a ring, whose rows averages would leave as wide as they are.
+  constexpr int segments = 4, rows = 4;
+  constexpr double inner = 2, outer = 10;
+  SurfaceMesh mesh = testing::grid(segments, rows);
+  for (Vector3& point : mesh.mesh.points) {
+    const double angle = M_PI_2 * (1 - point.x() / segments),
+                 radius = inner + (outer - inner) * point.y() / rows;
+    point = {radius * std::cos(angle), radius * std::sin(angle), 0};
+  }
+  relax(mesh, PlanarSurface(), 60);
+  const double side = 2 * inner * std::sin(M_PI_4 / segments), outer_row = (outer - inner) / rows;
+  // The nodes on the straight sides stay, and hold those next to them.
+  const auto radius = [&](int row) { return mesh.mesh.points[row * (segments + 1) + segments / 2].norm(); };
+  EXPECT_LT(radius(1) - inner, 1.05 * side);
+  // The arc outside curves away from the mesh: nothing is kept near it.
+  EXPECT_GT(outer - radius(rows - 1), 0.9 * outer_row);
+  EXPECT_GT(quality_of(mesh).q_min, 0.5);
 }
 
 TEST(Smooth, RaisesTheMeanAndNeverLosesTheWorst) {
