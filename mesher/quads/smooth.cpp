@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "mesher/mesh/quad_geometry.hpp"
@@ -150,10 +151,10 @@ struct SmoothedMesh {
   std::vector<double> quality;  ///< scaled Jacobian of each quad
 };
 
-/// The node on the boundary near which a node is kept.
-struct Leash {
-  int to = -1;  ///< -1 = none
-  double length = std::numeric_limits<double>::infinity();
+/// How thick the row between a node and one on the boundary may be.
+struct RowLimit {
+  int boundary = -1;  ///< the node on the boundary; -1 = no limit
+  double thickness = std::numeric_limits<double>::infinity();
 };
 
 /// The shorter side of the boundary at a fixed node where the boundary bends into the mesh, as along an arc
@@ -169,14 +170,17 @@ double side_on_notch(const SmoothedMesh& mesh, int node) {
     if (!mesh.free[next]) shortest = std::min(shortest, b.norm());
     if (!mesh.free[before]) shortest = std::min(shortest, d.norm());
   }
-  return angle > M_PI + least_turn && angle < M_PI + largest_turn && std::isfinite(shortest) ? shortest : 0;
+  return angle > std::numbers::pi + least_turn && angle < std::numbers::pi + largest_turn &&
+                 std::isfinite(shortest)
+             ? shortest
+             : 0;
 }
 
 /// Beside such arcs, quads are to be no thicker than they are long: stresses fall off there within a share of
 /// the radius, and averages spread the rows evenly as far as the next boundary.
-std::vector<Leash> leashes_of(const SmoothedMesh& mesh) {
-  std::vector<Leash> leashes(mesh.points.size());
-  for (int node = 0; node < static_cast<int>(leashes.size()); ++node) {
+std::vector<RowLimit> row_limits(const SmoothedMesh& mesh) {
+  std::vector<RowLimit> limits(mesh.points.size());
+  for (int node = 0; node < static_cast<int>(limits.size()); ++node) {
     mesh.check(node);
     if (mesh.free[node]) continue;
     const double length = side_on_notch(mesh, node);
@@ -185,11 +189,11 @@ std::vector<Leash> leashes_of(const SmoothedMesh& mesh) {
       const auto& q = mesh.quads[element_of(corner)];
       for (const int k : {1, 3}) {
         const int other = q[(index_of(corner) + k) & 3];
-        if (mesh.free[other] && length < leashes[other].length) leashes[other] = {node, length};
+        if (mesh.free[other] && length < limits[other].thickness) limits[other] = {node, length};
       }
     }
   }
-  return leashes;
+  return limits;
 }
 
 /// Sweeps of averages, in tangent planes. Nodes see the moves of the nodes before them.
@@ -199,7 +203,7 @@ class Sweeps {
       : mesh_(mesh),
         active_(mesh.points.size(), 1),
         next_active_(mesh.points.size(), 0),
-        leashes_(leashes_of(mesh)) {
+        row_limits_(row_limits(mesh)) {
     // Mark nodes where the surface turns far from one node to the next, as around a tube of four coarse
     // quads. There, averages in tangent planes would pull a node further to the side to which it leans.
     constexpr double least_cosine = 0.1;
@@ -238,14 +242,14 @@ class Sweeps {
     return true;
   }
 
-  /// Moves a place towards the end of the leash until that is long enough.
-  void keep_near(const Leash& leash, const TangentPlan& plan, double& x, double& y) const {
-    if (leash.to < 0) return;
-    const auto [end_x, end_y] = plan.coordinates(mesh_.points[leash.to]);
+  /// Moves a place towards the boundary until the row there is no thicker than allowed.
+  void keep_near(const RowLimit& limit, const TangentPlan& plan, double& x, double& y) const {
+    if (limit.boundary < 0) return;
+    const auto [end_x, end_y] = plan.coordinates(mesh_.points[limit.boundary]);
     const double distance = std::hypot(x - end_x, y - end_y);
-    if (!(distance > leash.length)) return;
-    x = end_x + (x - end_x) * leash.length / distance;
-    y = end_y + (y - end_y) * leash.length / distance;
+    if (!(distance > limit.thickness)) return;
+    x = end_x + (x - end_x) * limit.thickness / distance;
+    y = end_y + (y - end_y) * limit.thickness / distance;
   }
 
   /// One step of a sweep: moves the node towards the mean of the nodes of its quads, and beyond. Opposite
@@ -266,7 +270,7 @@ class Sweeps {
     x *= share;
     y *= share;
     size2 /= plan.count();
-    keep_near(leashes_[node], plan, x, y);
+    keep_near(row_limits_[node], plan, x, y);
     if (x * x + y * y < still_share * still_share * size2) return false;
     const double floor = std::min(mesh_.least_round(node), good_jacobian);
     if (!plan.fits(x, y, floor)) {
@@ -288,7 +292,7 @@ class Sweeps {
 
   SmoothedMesh& mesh_;
   std::vector<char> active_, next_active_, turns_sharply_;
-  std::vector<Leash> leashes_;  ///< (points)
+  std::vector<RowLimit> row_limits_;  ///< (points)
 };
 
 enum class Goal { raise, untangle };
