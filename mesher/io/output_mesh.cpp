@@ -23,6 +23,7 @@ std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   std::map<int, std::vector<int>> members;
   for (int i = 0; i < count; ++i) members[number_of(i) > 0 ? number_of(i) : last].push_back(i);
   std::vector<CadGroup> groups;
+  groups.reserve(members.size());
   for (auto& [number, own] : members) groups.push_back({number == last ? 0 : number, std::move(own)});
   return groups;
 }
