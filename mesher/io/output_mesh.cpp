@@ -21,7 +21,10 @@ template <class NumberOf>
 std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   constexpr int last = std::numeric_limits<int>::max();
   std::map<int, std::vector<int>> members;
-  for (int i = 0; i < count; ++i) members[number_of(i) > 0 ? number_of(i) : last].push_back(i);
+  for (int i = 0; i < count; ++i) {
+    const int number = number_of(i);
+    members[number > 0 ? number : last].push_back(i);
+  }
   std::vector<CadGroup> groups;
   groups.reserve(members.size());
   for (auto& [number, own] : members) groups.push_back({number == last ? 0 : number, std::move(own)});

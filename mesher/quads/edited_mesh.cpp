@@ -104,7 +104,7 @@ bool EditedMesh::trace(const SmallPatch& patch, Outline& outline) const {
       if (std::find(outline.ring.begin(), ring_end, node) != ring_end) continue;
       const auto inside_end = outline.inside.begin() + outline.inside_count;
       if (std::find(outline.inside.begin(), inside_end, node) != inside_end) continue;
-      if (outline.inside_count == 4 || !removable(node)) return false;
+      if (outline.inside_count == 4 || !inner(node)) return false;
       outline.inside[outline.inside_count++] = node;
     }
   return patch.count == outline.length / 2 - 1 + outline.inside_count;

@@ -74,10 +74,6 @@ class EditedMesh {
   /// Whether a new side is longer than every side before, and far longer than their mean.
   bool too_long(std::span<const Quad> before, std::span<const Quad> quads) const;
 
-  bool removable(int node) const {
-    const int side = topology_.side_of(node);
-    return side >= 0 && inner(node);
-  }
   static double inner_cost(int quads) { return quads < 3 ? 20 : (quads - 4) * (quads - 4); }
 
   /// The valence cost of a node with `quads` quads: how far that is from what its angle asks for.

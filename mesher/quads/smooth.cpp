@@ -170,10 +170,8 @@ double side_on_notch(const SmoothedMesh& mesh, int node) {
     if (!mesh.free[next]) shortest = std::min(shortest, b.norm());
     if (!mesh.free[before]) shortest = std::min(shortest, d.norm());
   }
-  return angle > std::numbers::pi + least_turn && angle < std::numbers::pi + largest_turn &&
-                 std::isfinite(shortest)
-             ? shortest
-             : 0;
+  const double turn = angle - std::numbers::pi;
+  return turn > least_turn && turn < largest_turn && std::isfinite(shortest) ? shortest : 0;
 }
 
 /// Beside such arcs, quads are to be no thicker than they are long: stresses fall off there within a share of
