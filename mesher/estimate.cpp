@@ -53,8 +53,7 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
         const auto& at = nodes.edges[coedge.edge].nodes;
-        const auto [first, last] = nodes.unused_by(id, coedge.edge);  // the face ends before its tips
-        for (std::size_t i = 1 + first; i + last < at.size(); ++i)
+        for (std::size_t i = 1; i < at.size() && !nodes.left_out.contains({id, coedge.edge}); ++i)
           act(nodes.points[at[i - 1]], nodes.points[at[i]]);
       }
     }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
@@ -34,13 +36,13 @@ std::set<int> edges_where_thickness_changes(const MidSurface& middle) {
   return result;
 }
 
-/// \param middle what the model is the middle surface of, if any: its faces belong to faces of a solid, and
-/// are not joined
-ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const MidSurface* middle,
-                     ExecutionContext& context) {
-  const Prepared prepared(model, options,
-                          {.joins = middle == nullptr,
-                           .uncrossed = middle ? edges_where_thickness_changes(*middle) : std::set<int>()});
+bool suppresses_features(const CadModel& model, const Prepared& prepared) {
+  return prepared.shape.edges.size() > model.shape().edges.size() ||
+         !suppressed_features(prepared, prepared.plan.tiny).empty();
+}
+
+ShellMesh mesh_prepared(const CadModel& model, const Prepared& prepared, ExecutionContext& context) {
+  const MeshOptions& options = prepared.options;
   const SizingField field = sizes_for(prepared, context);
   if (!options.write_size_field.empty()) field.write(options.write_size_field);
   const Run run{prepared, field, context};
@@ -58,6 +60,31 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const Mi
   result.warnings.insert(result.warnings.end(), defects.begin(), defects.end());
   if (options.inspect) options.inspect(result, field);
   return result;
+}
+
+/// \param middle what the model is the middle surface of, if any: its faces belong to faces of a solid, and
+/// are not joined
+ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const MidSurface* middle,
+                     ExecutionContext& context) {
+  Preparation how{.joins = middle == nullptr,
+                  .uncrossed = middle ? edges_where_thickness_changes(*middle) : std::set<int>()};
+  // A part that has no mesh may have one when fewer features are suppressed.
+  std::optional<Error> first;
+  for (how.reach_share = 1;; how.reach_share = how.reach_share == 1 ? 0.5 : 0) {
+    const Prepared prepared(model, options, how);
+    try {
+      ShellMesh result = mesh_prepared(model, prepared, context);
+      if (first)
+        result.warnings.push_back(
+            fmt::format("features are suppressed below {} only, because with more of them {}",
+                        number_text(prepared.reach), first->what()));
+      return result;
+    } catch (const Error& error) {
+      if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+      if (!first) first = error;
+      if (how.reach_share == 0 || !suppresses_features(model, prepared)) throw Error(*first);
+    }
+  }
 }
 
 std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {

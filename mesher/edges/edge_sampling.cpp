@@ -477,15 +477,16 @@ void copy_nodes(const CadShape& shape, const std::vector<MatchedEdge>& matched, 
   }
 }
 
-/// Gives edges that share the nodes of another edge those.
+/// Gives edges that share the nodes of another edge those, and lets faces end before their spikes.
 void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
   for (const EdgeId i : nodes.edges.ids()) {
     if (nodes.edges[i].parameters.empty() || tiny.edges[i] == i) continue;
     auto& edge = nodes.edges[i];
     edge.nodes = nodes.edges[tiny.edges[i]].nodes;
-    edge.borrowed = {edge.segments(), 0};
+    edge.borrows = true;
     if (tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
   }
+  nodes.left_out = tiny.folded;
 }
 
 }  // namespace
@@ -515,8 +516,6 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
     division = divide_edges(shape, plan, demand, sides);
   }
   BoundaryNodes nodes = NodePlacer(shape, plan, demand, division).run(used, context);
-  copy_nodes(shape, plan.matched, nodes);
-  end_faces_at_tips(shape, plan.tips, plan.tiny, nodes);
   copy_nodes(shape, plan.matched, nodes);
   borrow_nodes(plan.tiny, nodes);
   nodes.plans = plan_faces(shape, std::move(sides), plan, nodes);

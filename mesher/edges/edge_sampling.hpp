@@ -1,10 +1,10 @@
 #pragma once
 /// Nodes on CAD edges: each edge is sampled once, with counts that make every face even. Internal.
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -18,7 +18,6 @@
 #include "mesher/edges/matching.hpp"
 #include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
-#include "mesher/edges/tips.hpp"
 
 namespace quadrille {
 
@@ -28,21 +27,17 @@ struct BoundaryNodes {
     std::vector<double> parameters;  ///< one per node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
     int stride = 1;                  ///< segments for each one of the mesh that is recombined
-    /// Segments at the start and at the end whose nodes are those of other edges (TinyFeatures, Tip).
-    std::array<int, 2> borrowed{0, 0};
-    bool divided = false;  ///< users prescribe the number of segments on its chord
-    bool kept = false;     ///< users prescribe the spacing of its chord: the nodes stay in place
-    bool matched = false;  ///< its nodes are those of another edge, moved, or the other way round
-    bool copied = false;   ///< its nodes are those of another edge, moved
+    bool divided = false;            ///< users prescribe the number of segments on its chord
+    bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
+    bool matched = false;            ///< its nodes are those of another edge, moved, or the other way round
+    bool borrows = false;            ///< its nodes are those of another edge (TinyFeatures)
+    bool copied = false;             ///< its nodes are those of another edge, moved
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
-    bool borrows() const { return borrowed[0] + borrowed[1] > 0; }
-    bool borrows(int segment) const { return segment < borrowed[0] || segment >= segments() - borrowed[1]; }
   };
   std::vector<Vector3> points;
   IdVector<VertexId, int> vertex_nodes;  ///< indices into `points`; -1 = not used
   IdVector<EdgeId, Edge> edges;
-  /// Segments at the start and at the end of an edge that a face does not use, since it ends before its tip.
-  std::map<std::pair<FaceId, EdgeId>, std::array<int, 2>> unused;
+  std::set<std::pair<FaceId, EdgeId>> left_out;  ///< the face ends before the edge (TinyFeatures::folded)
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 with Strategy::subdivide,
   /// else 1. Faces may differ (FacePlan).
   int stride = 1;
@@ -66,12 +61,6 @@ struct BoundaryNodes {
       if (node >= 0) result[node] = 2;
     return result;
   }
-
-  /// How many of an edge's segments at its start and at its end a face does not use.
-  std::array<int, 2> unused_by(FaceId face, EdgeId edge) const {
-    const auto found = unused.find({face, edge});
-    return found == unused.end() ? std::array<int, 2>{0, 0} : found->second;
-  }
 };
 
 /// A part of a CAD edge that needs a least number of segments in the mesh that is recombined.
@@ -91,7 +80,6 @@ struct SamplingPlan {
   EdgeFlags ignore_curvature;   ///< 1 = ignore how the curve turns, it may have loops
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
   TinyFeatures tiny;
-  std::vector<Tip> tips;       ///< at which faces end early
   PrescribedEdges prescribed;  ///< user divisions; may be empty
   RowLines rows;               ///< along which faces get rows, and where these end on edges
   /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.

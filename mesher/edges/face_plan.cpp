@@ -110,7 +110,6 @@ FacePlan plan_of(const CadShape& shape, const CadFace& face, FaceSides sides, bo
 
 FacePlans plan_faces(const CadShape& shape, FaceOutlines sides, const SamplingPlan& sampling,
                      const BoundaryNodes& nodes) {
-  for (const auto& [side, counts] : nodes.unused) sides[side.first].drop_grid();  // it ends before a tip
   FacePlans plans(shape.faces.size());
   for (const FaceId face : plans.ids()) {
     // An odd number of segments may lie on an edge beyond the rows that end there.

@@ -42,10 +42,11 @@ class SideFinder {
   SideFinder(const CadShape& shape, const TinyFeatures& tiny, const IdVector<EdgeId, double>& wanted)
       : shape_(shape), tiny_(tiny), wanted_(wanted) {}
 
-  FaceSides find(const CadFace& face) const {
+  FaceSides find(FaceId id) const {
+    const CadFace& face = shape_.faces[id];
     FaceSides sides;
     std::vector<Walk> walks;
-    if (face.inner_vertices.empty()) walks = usable_walks(face);
+    if (face.inner_vertices.empty()) walks = usable_walks(id);
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
     if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
@@ -57,7 +58,8 @@ class SideFinder {
 
  private:
   /// The wires; none if one is unordered or has cracks or poles, or if nothing of it is left.
-  std::vector<Walk> usable_walks(const CadFace& face) const {
+  std::vector<Walk> usable_walks(FaceId id) const {
+    const CadFace& face = shape_.faces[id];
     std::vector<Walk> walks;
     const FaceSurface surface(face);
     for (const CadWire& wire : face.wires) {
@@ -67,7 +69,7 @@ class SideFinder {
         const Coedge& coedge = wire.coedges[k];
         const EdgeId edge = coedge.edge;
         if (coedge.internal || shape_.edges[edge].degenerate) return {};
-        if (tiny_.collapsed_edges[edge]) continue;
+        if (!tiny_.has(id, edge)) continue;
         walk.coedges.push_back(static_cast<int>(k));
         walk.edges.push_back({edge, coedge.forward});
       }
@@ -273,7 +275,7 @@ FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const
   const SideFinder finder(shape, tiny, wanted);
   FaceOutlines result(shape.faces.size());
   for (const FaceId face : result.ids()) {
-    if (used[face]) result[face] = finder.find(shape.faces[face]);
+    if (used[face]) result[face] = finder.find(face);
   }
   return result;
 }

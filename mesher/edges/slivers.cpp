@@ -13,6 +13,7 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_division.hpp"
+#include "mesher/edges/spikes.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -23,13 +24,6 @@ namespace {
 constexpr std::size_t most_edges = 40;
 /// A chain is at least this many times as long as the sliver is wide.
 constexpr double slender = 2.5;
-
-/// A place on an edge where it is to be divided.
-struct Cut {
-  EdgeId edge;
-  double parameter = 0;
-  Vector3 point{0, 0, 0};
-};
 
 /// A long edge of a face, with samples in the direction of the wire.
 struct LongEdge {
@@ -132,7 +126,7 @@ class SliverFinder {
   SliverFinder(const CadShape& shape, const FaceFlags& used, double width, FaceId id)
       : shape_(shape), used_(used), width_(width), id_(id) {}
 
-  std::optional<Sliver> find(std::vector<Cut>& cuts) && {
+  std::optional<Sliver> find(std::vector<EdgeCut>& cuts) && {
     const CadFace& face = shape_.faces[id_];
     std::size_t first_wire = 0;
     constexpr int coarse = 8, fine = 256;
@@ -272,7 +266,7 @@ class SliverFinder {
 
   /// Pairs the edges of two chains that lie along each other.
   std::optional<Sliver> zip(const std::vector<int>& chain, const std::vector<int>& other,
-                            std::vector<Cut>& cuts) const {
+                            std::vector<EdgeCut>& cuts) const {
     const double length = std::min(length_of(chain), length_of(other));
     const double reach = std::min(width_, length / slender);
     if (std::abs(length_of(chain) - length_of(other)) > 0.2 * length + 2 * width_) return std::nullopt;
@@ -282,7 +276,7 @@ class SliverFinder {
     if (!is_ring) {
       for (const int end : {edges_[chain.front()].start, edges_[chain.back()].end}) match[end] = end;
     }
-    std::vector<Cut> found;
+    std::vector<EdgeCut> found;
     if (!match_junctions(chain, other, match, found) || !match_junctions(other, chain, match, found))
       return std::nullopt;
     if (!found.empty()) {
@@ -294,7 +288,7 @@ class SliverFinder {
 
   /// Finds the junction of the other chain that faces each junction, or the place to divide an edge at.
   bool match_junctions(const std::vector<int>& chain, const std::vector<int>& other,
-                       std::map<int, int>& match, std::vector<Cut>& cuts) const {
+                       std::map<int, int>& match, std::vector<EdgeCut>& cuts) const {
     for (const int i : chain) {
       const int junction = edges_[i].start;
       if (match.contains(junction)) continue;
@@ -344,19 +338,21 @@ class SliverFinder {
   std::vector<LongEdge> edges_;
 };
 
-/// \param cuts gets the places that have to be divided first, if the face is a sliver otherwise
-std::optional<Sliver> find_sliver(const CadShape& shape, const FaceFlags& used, double width, FaceId id,
-                                  std::vector<Cut>& cuts) {
+/// \param cuts gets the places that have to be divided first, if the face is a sliver otherwise or has spikes
+std::vector<Sliver> find_slivers_of(const CadShape& shape, const FaceFlags& used, double width, FaceId id,
+                                    EdgeEnds& taken, std::vector<EdgeCut>& cuts) {
   const CadFace& face = shape.faces[id];
-  if (face.wires.empty() || face.wires.size() > 2 || !face.inner_vertices.empty()) return std::nullopt;
-  if (auto tube = TubeFinder{shape, used, width}.find(id)) return tube;
-  return SliverFinder(shape, used, width, id).find(cuts);
+  if (!face.wires.empty() && face.wires.size() <= 2 && face.inner_vertices.empty()) {
+    if (auto tube = TubeFinder{shape, used, width}.find(id)) return {std::move(*tube)};
+    if (auto sliver = SliverFinder(shape, used, width, id).find(cuts)) return {std::move(*sliver)};
+  }
+  return cuts.empty() ? find_spikes(shape, id, width, taken, cuts) : std::vector<Sliver>();
 }
 
 /// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.
-std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<Cut> cuts, double nearest) {
+std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<EdgeCut> cuts, double nearest) {
   auto result = std::make_shared<CadShape>(shape);
-  std::stable_sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) {
+  std::stable_sort(cuts.begin(), cuts.end(), [](const EdgeCut& a, const EdgeCut& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
   });
   for (std::size_t i = 0; i < cuts.size();) {
@@ -378,10 +374,12 @@ std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<Cut> 
 std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width) {
   std::vector<Sliver> result;
   if (!(width > 0)) return result;
+  EdgeEnds taken;
   for (const FaceId face : used.ids()) {
-    std::vector<Cut> cuts;
+    std::vector<EdgeCut> cuts;
     if (!used[face]) continue;
-    if (auto sliver = find_sliver(shape, used, width, face, cuts)) result.push_back(std::move(*sliver));
+    for (Sliver& sliver : find_slivers_of(shape, used, width, face, taken, cuts))
+      result.push_back(std::move(sliver));
   }
   return result;
 }
@@ -393,11 +391,12 @@ std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const 
   if (!(width > 0)) return result;
   for (int pass = 0; pass < most_passes; ++pass) {
     const CadShape& now = result ? *result : shape;
-    std::vector<Cut> all;
+    std::vector<EdgeCut> all;
+    EdgeEnds taken;
     for (const FaceId face : used.ids()) {
-      std::vector<Cut> cuts;
+      std::vector<EdgeCut> cuts;
       if (!used[face]) continue;
-      find_sliver(now, used, width, face, cuts);
+      find_slivers_of(now, used, width, face, taken, cuts);
       all.insert(all.end(), cuts.begin(), cuts.end());
     }
     if (all.empty()) break;

@@ -9,8 +9,16 @@
 
 namespace quadrille {
 
+/// A place on an edge where it is to be divided.
+struct EdgeCut {
+  EdgeId edge;
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
 /// A face that is narrower than a given width everywhere, as two chains of edges that lie along each other: a
-/// loop between two ends, or the two loops of a ring. A tube along a seam has no such chains; it vanishes.
+/// loop between two ends, or the two loops of a ring. A tube along a seam has no such chains; it vanishes. Or
+/// a spike: a part of a face between two edges that meet.
 struct Sliver {
   /// Edges that lie along each other from end to end.
   struct Pair {
@@ -24,15 +32,17 @@ struct Sliver {
   /// Vertices at the two sides of short edges, which must share a node for the pairs to fit.
   std::vector<std::array<VertexId, 2>> joints;
   std::vector<EdgeId> rims;  ///< edges at the ends of a tube, which must become points
+  bool is_spike = false;     ///< the rest of the face stays, and no longer uses the edges of the pair
 };
 
-/// The slivers among the used faces whose vertices all face each other, see divided_at_slivers().
+/// The slivers among the used faces whose vertices all face each other, see divided_at_slivers(), and the
+/// spikes of the other faces, see find_spikes().
 /// \param width model units. Edges shorter than this count as short.
 std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width);
 
 /// A copy of the shape whose slivers have vertices that face each other: where a vertex of one chain faces
-/// the inside of an edge, that edge is in two pieces. Pieces keep the number of the edge; the new vertices
-/// come after the model's own. Null if there is nothing to divide.
+/// the inside of an edge, that edge is in two pieces, and so are edges where spikes begin. Pieces keep the
+/// number of the edge; the new vertices come after the model's own. Null if there is nothing to divide.
 std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const FaceFlags& used,
                                                    double width);
 

@@ -34,14 +34,14 @@ class HarmFinder {
     for (const CadWire& wire : face.wires) {
       if (is_closed_hole(id, wire)) continue;
       std::string why;
-      if (!wire.ordered || is_small_loop(wire)) {
+      if (!wire.ordered || is_small_loop(id, wire)) {
         why = fmt::format("a loop of Face{} would be too small for elements", id.number());
-      } else if (is_narrow(wire)) {
+      } else if (is_narrow(id, wire)) {
         why = fmt::format("Face{} is so narrow that it would lose much of its area", id.number());
       }
       if (why.empty()) continue;
       for (const Coedge& coedge : wire.coedges) {
-        if (is_gone(coedge)) harms.push_back({coedge.edge, why});
+        if (is_gone(id, coedge)) harms.push_back({coedge.edge, why});
       }
     }
     find_edges_twice(id, harms);
@@ -49,11 +49,11 @@ class HarmFinder {
   }
 
  private:
-  bool is_gone(const Coedge& coedge) const { return tiny_.collapsed_edges[coedge.edge] != 0; }
+  bool is_gone(FaceId face, const Coedge& coedge) const { return !tiny_.has(face, coedge.edge); }
 
   /// Whether nothing is left of a hole and of the faces behind it, so that the face continues across it.
   bool is_closed_hole(FaceId id, const CadWire& hole) const {
-    const auto is_left = [&](const Coedge& coedge) { return !is_gone(coedge); };
+    const auto is_left = [&](const Coedge& coedge) { return !is_gone(id, coedge); };
     const auto is_open = [&](const Coedge& coedge) {
       const auto& faces = shape_.edges[coedge.edge].faces;
       return std::any_of(faces.begin(), faces.end(), [&](FaceId other) {
@@ -69,12 +69,12 @@ class HarmFinder {
   }
 
   /// Whether the rest of a loop is too small for elements.
-  bool is_small_loop(const CadWire& wire) const {
+  bool is_small_loop(FaceId id, const CadWire& wire) const {
     constexpr double least = 4;
     double length = 0;
     std::vector<const CadEdge*> left;
     for (const Coedge& coedge : wire.coedges) {
-      if (is_gone(coedge)) continue;
+      if (is_gone(id, coedge)) continue;
       left.push_back(&shape_.edges[coedge.edge]);
       length += left.back()->length;
     }
@@ -83,14 +83,15 @@ class HarmFinder {
   }
 
   /// Whether a loop with free edges that would lose others is hardly wider than these may be long.
-  bool is_narrow(const CadWire& wire) const {
+  bool is_narrow(FaceId id, const CadWire& wire) const {
     constexpr int samples = 8;
     constexpr double hardly = 2;
     const auto is_free = [&](const Coedge& coedge) {
-      return !is_gone(coedge) && shape_.edges[coedge.edge].faces.size() == 1;
+      return !is_gone(id, coedge) && shape_.edges[coedge.edge].faces.size() == 1;
     };
     if (std::none_of(wire.coedges.begin(), wire.coedges.end(), is_free) ||
-        std::none_of(wire.coedges.begin(), wire.coedges.end(), [&](const Coedge& c) { return is_gone(c); }))
+        std::none_of(wire.coedges.begin(), wire.coedges.end(),
+                     [&](const Coedge& c) { return is_gone(id, c); }))
       return false;
     std::vector<Vector3> loop;
     double length = 0;
@@ -117,7 +118,7 @@ class HarmFinder {
     for (const CadWire& wire : shape_.faces[id].wires) {
       for (const Coedge& coedge : wire.coedges) {
         const EdgeId edge = coedge.edge;
-        if (is_gone(coedge)) continue;
+        if (is_gone(id, coedge)) continue;
         const auto [at, is_new] = first.emplace(tiny_.edges[edge], Use{coedge, &wire});
         const Use& other = at->second;
         if (is_new || other.coedge.edge == edge) continue;
@@ -232,7 +233,7 @@ bool SuppressedFeatures::keep_harmed() {
   };
   const auto keep_slivers_at = [&](EdgeId edge, const std::string& why) {
     for (const FaceId face : shape_.edges[edge].faces) {
-      if (!tiny.merged_faces[face] || kept_faces_[face]) continue;
+      if (!tiny.cuts(face) || kept_faces_[face]) continue;
       keep_face(face, why);
       any = true;
       for (const CadWire& wire : shape_.faces[face].wires) {
@@ -266,7 +267,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
   bool any = false;
   std::set<VertexId> here;
   const auto keep = [&](FaceId other) {
-    if (!tiny.merged_faces[other] || kept_faces_[other]) return;
+    if (!tiny.cuts(other) || kept_faces_[other]) return;
     any = true;
     keep_face(other, why);
   };

@@ -66,8 +66,11 @@ class Finder {
         }))
       return;
     for (const auto& [a, b] : sliver.ties) join(a, b);
-    for (const Sliver::Pair& pair : sliver.pairs) share(pair.edge, pair.other, pair.reversed);
-    tiny_.merged_faces[sliver.face] = 1;
+    for (const Sliver::Pair& pair : sliver.pairs) {
+      share(pair.edge, pair.other, pair.reversed);
+      if (sliver.is_spike) tiny_.folded.insert({{sliver.face, pair.edge}, {sliver.face, pair.other}});
+    }
+    tiny_.merged_faces[sliver.face] = static_cast<char>(!sliver.is_spike);
   }
 
   /// The edge whose nodes an edge has so far, and whether it runs in the opposite direction.
@@ -103,7 +106,7 @@ class Finder {
       for (const Coedge& coedge : wire.coedges) {
         const EdgeId edge = coedge.edge;
         any_collapsed |= tiny_.collapsed_edges[edge] != 0;
-        if (!tiny_.collapsed_edges[edge] && !shape_.edges[edge].degenerate) left.push_back(edge);
+        if (tiny_.has(face, edge) && !shape_.edges[edge].degenerate) left.push_back(edge);
       }
     }
     // A face without any collapsed edge is not tiny, even if all its edges are poles.
@@ -157,7 +160,7 @@ class Finder {
       if (!used_[face] || tiny_.merged_faces[face]) continue;
       for (const CadWire& wire : shape_.faces[face].wires) {
         const auto may_go = [&](EdgeId edge) { return merged[edge] && uses[edge] == 2; };
-        for (const EdgeId edge : there_and_back(wire, may_go)) inside[edge] = 1;
+        for (const EdgeId edge : there_and_back(face, wire, may_go)) inside[edge] = 1;
       }
     }
     for (const EdgeId edge : tiny_.edges.ids()) {
@@ -167,12 +170,12 @@ class Finder {
 
   /// The edges that may be dropped because a wire runs back along them, with nothing left between.
   template <class MayGo>
-  std::vector<EdgeId> there_and_back(const CadWire& wire, MayGo&& may_go) const {
+  std::vector<EdgeId> there_and_back(FaceId face, const CadWire& wire, MayGo&& may_go) const {
     std::vector<EdgeId> result;
     std::vector<Use> left;
     for (const Coedge& coedge : wire.coedges) {
       if (!wire.ordered || coedge.internal || shape_.edges[coedge.edge].degenerate) return {};
-      if (tiny_.collapsed_edges[coedge.edge]) continue;
+      if (!tiny_.has(face, coedge.edge)) continue;
       const Use use{tiny_.edges[coedge.edge], tiny_.forward(coedge)};
       if (!left.empty() && use.is_back_of(left.back()) && may_go(use.edge)) {
         result.push_back(use.edge);
@@ -202,7 +205,8 @@ IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used
   for (const FaceId face : used.ids()) {
     if (!used[face] || tiny.merged_faces[face]) continue;
     for (const CadWire& wire : shape.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges) ++uses[tiny.edges[coedge.edge]];
+      for (const Coedge& coedge : wire.coedges)
+        uses[tiny.edges[coedge.edge]] += !tiny.folded.contains({face, coedge.edge});
     }
   }
   return uses;

@@ -1,6 +1,8 @@
 #pragma once
 /// Edges treated as points and slivers treated as edges. Internal.
 
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -10,11 +12,22 @@ namespace quadrille {
 
 /// What is left out of the mesh because it is too small.
 struct TinyFeatures {
-  IdVector<VertexId, VertexId> vertices;  ///< the vertex whose node this one shares; usually itself
-  EdgeFlags collapsed_edges;              ///< 1 = the edge has no segments
-  IdVector<EdgeId, EdgeId> edges;         ///< the edge whose nodes this one shares; usually itself
-  EdgeFlags reversed_edges;               ///< 1 = it runs in the opposite direction to that edge
-  FaceFlags merged_faces;                 ///< 1 = the face vanishes
+  IdVector<VertexId, VertexId> vertices;       ///< the vertex whose node this one shares; usually itself
+  EdgeFlags collapsed_edges;                   ///< 1 = the edge has no segments
+  IdVector<EdgeId, EdgeId> edges;              ///< the edge whose nodes this one shares; usually itself
+  EdgeFlags reversed_edges;                    ///< 1 = it runs in the opposite direction to that edge
+  FaceFlags merged_faces;                      ///< 1 = the face vanishes
+  std::set<std::pair<FaceId, EdgeId>> folded;  ///< the edge lies at a spike of the face, which ends before it
+
+  /// Whether there are segments of an edge on the boundary of a face that uses it.
+  bool has(FaceId face, EdgeId edge) const {
+    return !collapsed_edges[edge] && !folded.contains({face, edge});
+  }
+  /// Whether the face vanishes, or a part of it.
+  bool cuts(FaceId face) const {
+    const auto found = folded.lower_bound({face, EdgeId()});
+    return merged_faces[face] || (found != folded.end() && found->first == face);
+  }
 
   /// Whether both ends of an edge share a node.
   bool closed(const CadEdge& edge) const { return end(edge.first_vertex) == end(edge.last_vertex); }

@@ -201,10 +201,10 @@ class BoundaryWalker {
     Vector2 uv = parametric_point(coedge, edge.parameters[i]);
     const CadEdge& cad = shape_.edges[coedge.edge];
     const VertexId end = i == 0 ? cad.first_vertex : i == edge.segments() ? cad.last_vertex : VertexId();
-    if (!edge.borrows() && !end.exists()) return uv;
+    if (!edge.borrows && !end.exists()) return uv;
     // A node that stands for suppressed features is not on the edge's own curve.
     constexpr double tolerances = 10;
-    double tolerance = edge.borrows() ? 0 : tolerances * std::max(face_.tolerance, cad.tolerance);
+    double tolerance = edge.borrows ? 0 : tolerances * std::max(face_.tolerance, cad.tolerance);
     if (end.exists()) tolerance = std::max(tolerance, 2 * shape_.vertex_tolerances[end]);
     if (!((curve.point(edge.parameters[i]) - node).norm() > tolerance)) return uv;
     Vector2 moved = uv;
@@ -214,10 +214,9 @@ class BoundaryWalker {
 
   Run walk_edge(const Coedge& coedge) {
     const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
-    const auto [unused_first, unused_last] = nodes_.unused_by(id_, coedge.edge);
-    const int first = coedge.forward ? unused_first : edge.segments() - unused_last;
-    const int count = (edge.segments() - unused_first - unused_last) / boundary_.stride;
-    if (count <= 0) return {};
+    const int first = coedge.forward ? 0 : edge.segments();
+    const int count = edge.segments() / boundary_.stride;
+    if (count <= 0 || nodes_.left_out.contains({id_, coedge.edge})) return {};
     const EdgeCurve curve(shape_.edges[coedge.edge]);
     Run run;
     run.first_segment = static_cast<int>(boundary_.segments.size());
@@ -267,8 +266,7 @@ class BoundaryWalker {
   /// Whether the face ends before the pole.
   bool ends_before(const CadWire& wire, std::size_t at) const {
     const std::size_t n = wire.coedges.size();
-    const Coedge& after = wire.coedges[(at + 1) % n];
-    return nodes_.unused_by(id_, after.edge)[after.forward ? 0 : 1] > 0;
+    return nodes_.left_out.contains({id_, wire.coedges[(at + 1) % n].edge});
   }
 
   /// Whether the face is so narrow between the coedges beside a pole that no elements fit side by side.

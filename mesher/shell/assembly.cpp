@@ -121,8 +121,7 @@ class Assembler {
   void add_segments() {
     for (const EdgeId id : nodes_.edges.ids()) {
       const auto& edge = nodes_.edges[id];
-      for (int k = 0; k < edge.segments(); ++k) {
-        if (edge.borrows(k)) continue;
+      for (int k = 0; !edge.borrows && k < edge.segments(); ++k) {
         const int a = numbering_.nodes[edge.nodes[k]], b = numbering_.nodes[edge.nodes[k + 1]];
         if (a < 0 || b < 0) continue;
         mesh_.segments.push_back({{a, b}, -1, geometry_.number(id)});

@@ -61,18 +61,6 @@ class DirectedSides {
 
 using Sets = boost::disjoint_sets_with_storage<>;
 
-/// The segments of an edge that both of its faces use, and that have its own nodes: from the first to the one
-/// before the last.
-std::array<int, 2> common_segments(const CadShape& shape, const BoundaryNodes& nodes, EdgeId id) {
-  const BoundaryNodes::Edge& edge = nodes.edges[id];
-  std::array<int, 2> result{edge.borrowed[0], edge.segments() - edge.borrowed[1]};
-  for (const FaceId face : shape.edges[id].faces) {
-    const auto [before, after] = nodes.unused_by(face, id);
-    result = {std::max(result[0], before), std::min(result[1], edge.segments() - after)};
-  }
-  return result;
-}
-
 /// Faces that may be treated as one, and the sides along the edges between them.
 struct Candidates {
   std::vector<CompositeFace> composites;
@@ -141,13 +129,12 @@ class CandidateFinder {
   bool is_eligible(EdgeId id) const {
     const CadEdge& cad = shape_.edges[id];
     const BoundaryNodes::Edge& edge = nodes_.edges[id];
-    if (kept_[id] || edge.kept || edge.matched || edge.divided || edge.segments() < 1) return false;
+    if (kept_[id] || edge.kept || edge.matched || edge.divided || edge.borrows || edge.segments() < 1)
+      return false;
     if (cad.faces.size() != 2 || cad.degenerate) return false;
     for (const FaceId face : cad.faces)
-      if (!faces_[face] || !faces_[face]->off.empty()) return false;
-    const auto [first, last] = common_segments(shape_, nodes_, id);
-    if (first >= last || (first > 0 && last < edge.segments())) return false;
-    for (int k = first + 1; k < last; ++k)
+      if (!faces_[face] || !faces_[face]->off.empty() || nodes_.left_out.contains({face, id})) return false;
+    for (int k = 1; k < edge.segments(); ++k)
       if (edges_at_node_[edge.nodes[k]] != 1) return false;
     return edge.nodes.front() != edge.nodes.back() || edge.segments() > 2;
   }
@@ -212,8 +199,7 @@ class CandidateFinder {
   bool has_sides(EdgeId id, const DirectedSides& sides) const {
     const auto& nodes = nodes_.edges[id].nodes;
     const auto& faces = shape_.edges[id].faces;
-    const auto [first, last] = common_segments(shape_, nodes_, id);
-    for (int k = first; k < last; ++k) {
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
       for (const FaceSideUse* side : {sides.find(nodes[k], nodes[k + 1]), sides.find(nodes[k + 1], nodes[k])})
         if (side == nullptr || (side->face != faces[0] && side->face != faces[1])) return false;
     }
@@ -282,8 +268,7 @@ class Joining {
     Sets sets(count);
     for (const EdgeId id : composite.edges) {
       const auto& nodes = nodes_.edges[id].nodes;
-      const auto [first, last] = common_segments(shape_, nodes_, id);
-      for (int k = first; k < last; ++k) {
+      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
         const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]),
                           &other = *sides_.find(nodes[k + 1], nodes[k]);
         sets.union_set(offset[one.face] + one.from, offset[other.face] + other.to);
@@ -523,21 +508,12 @@ class Splitting {
       const auto is_side = [&](int a, int b) {
         return std::binary_search(sides.begin(), sides.end(), side_key(a, b));
       };
-      const auto [first, last] = common_segments(shape_, nodes_, id);
       bool is_whole = true;
-      for (int k = first; is_whole && k < last; ++k) is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
+      for (int k = 0; is_whole && k < edge.segments(); ++k)
+        is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
       if (is_whole) continue;
-      // A tip that one of the faces leaves out keeps its segments.
-      if (first == 0 && last < edge.segments()) {
-        edge.nodes.erase(edge.nodes.begin(), edge.nodes.begin() + last);
-        edge.parameters.erase(edge.parameters.begin(), edge.parameters.begin() + last);
-        edge.borrowed[0] = 0;
-      } else {
-        const int left = first > 0 ? first + 1 : 0;
-        edge.nodes.resize(left);
-        edge.parameters.resize(left);
-        edge.borrowed[1] = 0;
-      }
+      edge.nodes.clear();
+      edge.parameters.clear();
       suppressed.push_back(id);
     }
   }

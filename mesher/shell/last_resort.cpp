@@ -78,10 +78,9 @@ class LoopMesher {
     const std::size_t first = mesh_.nodes.size();
     for (const Coedge& coedge : wire.coedges) {
       const BoundaryNodes::Edge& edge = nodes_.edges[coedge.edge];
-      const auto [unused_first, unused_last] = nodes_.unused_by(id_, coedge.edge);
-      const int first_node = unused_first, last_node = edge.segments() - unused_last;
-      for (int k = 0; k < last_node - first_node; ++k) {
-        const int i = coedge.forward ? first_node + k : last_node - k;
+      if (nodes_.left_out.contains({id_, coedge.edge})) continue;
+      for (int k = 0; k < edge.segments(); ++k) {
+        const int i = coedge.forward ? k : edge.segments() - k;
         if (mesh_.nodes.size() > first && mesh_.nodes.back() == edge.nodes[i]) continue;
         mesh_.nodes.push_back(edge.nodes[i]);
         add(nodes_.points[edge.nodes[i]], parametric_point(coedge, edge.parameters[i]));

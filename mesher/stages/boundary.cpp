@@ -64,7 +64,7 @@ class Renumbering {
       : before_(before), now_(now), numbers_(before.points.size(), none), same_(now.edges.size()) {
     for (const EdgeId i : same_.ids()) {
       const auto &old = before.edges[i], &edge = now.edges[i];
-      same_[i] = old.parameters == edge.parameters && old.borrowed == edge.borrowed;
+      same_[i] = old.parameters == edge.parameters && old.borrows == edge.borrows;
       if (!same_[i]) continue;
       for (std::size_t k = 0; k < edge.nodes.size(); ++k) add(old.nodes[k], edge.nodes[k]);
     }
@@ -78,7 +78,8 @@ class Renumbering {
     const std::vector<EdgeId> edges = edges_of(shape.faces[face]);
     return old.stride == plan.stride && old.is_filled == plan.is_filled &&
            std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
-             return same_[edge] != 0 && before_.unused_by(face, edge) == now_.unused_by(face, edge);
+             return same_[edge] != 0 &&
+                    before_.left_out.contains({face, edge}) == now_.left_out.contains({face, edge});
            });
   }
 
@@ -134,21 +135,6 @@ void check_sides(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
   if (problem) throw FaceProblem(std::move(*problem));
 }
 
-/// Meshes the tips of a face, and of those beside it, that ended early. \return whether there are any.
-bool mesh_to_tips(const CadShape& shape, FaceId face, Boundary& boundary) {
-  const auto is_beside = [&](const Tip::Flank& side) {
-    const auto& faces = shape.edges[side.edge].faces;
-    return std::find(faces.begin(), faces.end(), face) != faces.end();
-  };
-  bool any = false;
-  for (const Tip& tip : boundary.plan.tips) {
-    if (!is_beside(tip.before) && !is_beside(tip.after)) continue;
-    boundary.to_tips[tip.face] = 1;
-    any = true;
-  }
-  return any;
-}
-
 /// \return false if nothing could be done for the face.
 bool treat_face(const CadShape& shape, FaceId face, FaceRecord& record, Boundary& boundary) {
   // If not even a substitute chart can be made, the earlier problem is the one to report.
@@ -158,10 +144,8 @@ bool treat_face(const CadShape& shape, FaceId face, FaceRecord& record, Boundary
   record.before = record.problem;
   const FaceProblem& problem = *record.problem;
   if (problem.cause() != Cause::narrow_gaps) {
-    const bool ended_early = mesh_to_tips(shape, face, boundary);
-    if (ended_early || boundary.suppressed.keep_around(face, problem.edges, boundary.plan.tiny)) {
-      record.history.push_back(ended_early ? "faces no longer end before their tips"
-                                           : "suppressed features restored");
+    if (boundary.suppressed.keep_around(face, problem.edges, boundary.plan.tiny)) {
+      record.history.emplace_back("suppressed features restored");
       return true;
     }
   }
@@ -246,7 +230,7 @@ bool treat(const Prepared& prepared, Boundary& boundary, Faces& faces) {
     if (record.problem && !record.given_up) any |= treat_face(prepared.shape, face, record, boundary);
   }
   if (!any) return false;
-  boundary.meshed = prepared.leave_out_tiny(boundary.suppressed, boundary.to_tips, boundary.plan);
+  boundary.meshed = prepared.leave_out_tiny(boundary.suppressed, boundary.plan);
   for (const FaceId face : faces.records.ids())
     if (!boundary.meshed[face]) faces.records[face].problem.reset();
   return true;

@@ -44,14 +44,14 @@ MeshOptions checked(const CadModel& model, MeshOptions options) {
   return options;
 }
 
-double suppression_reach(const SizeLimits& limits, const MeshOptions& options) {
+double suppression_reach(const SizeLimits& limits, const MeshOptions& options, double share) {
   constexpr double far_below = 0.5;
   if (options.keep_features) return 0;
-  return options.reach > 0 ? options.reach : far_below * limits.size_min;
+  return share * (options.reach > 0 ? options.reach : far_below * limits.size_min);
 }
 
 /// The model with edges divided at slivers, except around edges whose nodes users prescribe or match.
-CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& options) {
+CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& options, double reach) {
   const SizingOptions& sizing = options.sizing;
   const CadShape& source = model.shape();
   const auto leave = [&](EdgeId edge) {
@@ -68,7 +68,6 @@ CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& optio
       else
         for (const EdgeId edge : edges_of(source.faces[FaceId::from_number(number)])) leave(edge);
     }
-  const double reach = suppression_reach(size_limits(model, sizing), options);
   const auto shape = divided_at_slivers(source, used, reach);
   return shape ? CadModel(shape) : model;
 }
@@ -78,7 +77,7 @@ Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
   const SizingOptions& sizing = prepared.options.sizing;
   Protection result{edges_below_size_min(prepared.model, sizing, prepared.limits),
                     EdgeFlags(shape.edges.size(), prepared.options.keep_features ? 1 : 0),
-                    FaceFlags(shape.faces.size()), prepared.matches.vertices(shape)};
+                    prepared.matches.vertices(shape)};
   for (const PlacedNode& node : prepared.placed.nodes) result.vertices.push_back(node.vertex);
   for (const EdgeId id : shape.edges.ids()) {
     const CadEdge& edge = shape.edges[id];
@@ -92,9 +91,6 @@ Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
                               return node.vertex == edge.first_vertex || node.vertex == edge.last_vertex;
                             });
   }
-  for (const FaceId face : shape.faces.ids())
-    for (const EdgeId edge : edges_of(shape.faces[face]))
-      result.tips[face] |= prepared.matches.matched_edges[edge];
   return result;
 }
 
@@ -127,21 +123,22 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
       simple(simplified(source, options, how.joins)),
       asked(simple.left(faces_used(source, options))),
       limits(size_limits(source, options.sizing)),
+      reach(suppression_reach(limits, options, how.reach_share)),
       placed(how.divides ? place_nodes(simple.model.shape(), asked, options.sizing, limits.largest)
                          : PlacedNodes()),
-      model(how.divides ? divided(placed.shape ? CadModel(placed.shape) : simple.model, asked, options)
+      model(how.divides ? divided(placed.shape ? CadModel(placed.shape) : simple.model, asked, options, reach)
                         : simple.model),
       shape(model.shape()),
       matches(find_matches(shape, options.sizing.matches, asked)),
       protection(protect(*this, how.uncrossed)),
-      suppressed(shape, asked, suppression_reach(limits, options), protection.lengths, protection.vertices),
+      suppressed(shape, asked, reach, protection.lengths, protection.vertices),
       plan(shape) {
   constexpr double far_below = 0.02;
   plan.shortest_segment = far_below * limits.size_min;
   if (options.strategy == Strategy::subdivide) plan.subdivided.assign(shape.faces.size(), 1);
   plan.matched = matches.edges;
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
-  meshed = leave_out_tiny(suppressed, FaceFlags(shape.faces.size()), plan);
+  meshed = leave_out_tiny(suppressed, plan);
   const FaceOutlines outlines = find_outlines(*this, plan.tiny);
   rows = find_rows(*this, outlines, plan);
   gridded.resize(shape.faces.size());
@@ -149,16 +146,11 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
     gridded[face] = options.sizing.aspect > 1 && outlines[face].is_filled();
 }
 
-FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips,
-                                   SamplingPlan& to) const {
+FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, SamplingPlan& to) const {
   to.tiny = now.find(options.merge_tiny);
   for (const FaceId face : simple.gone.ids()) to.tiny.merged_faces[face] |= simple.gone[face];
   FaceFlags left = asked;
   for (const FaceId face : left.ids()) left[face] = asked[face] && !to.tiny.merged_faces[face];
-  FaceFlags may_end = left;
-  for (const FaceId face : may_end.ids())
-    may_end[face] = left[face] && !to_tips[face] && !protection.tips[face];
-  to.tips = find_tips(shape, may_end, to.tiny, suppression_reach(limits, options));
   return left;
 }
 

@@ -20,11 +20,10 @@ namespace quadrille {
 /// 1 = the options ask for this face to be meshed.
 FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
-/// What users or matched pairs keep from being suppressed, cut short or crossed.
+/// What users or matched pairs keep from being suppressed or crossed.
 struct Protection {
   EdgeFlags lengths;               ///< 1 = the edge must not become a point
   EdgeFlags own_nodes;             ///< 1 = the edge keeps nodes of its own: no quad crosses it
-  FaceFlags tips;                  ///< 1 = the face must not end before its tips
   std::vector<VertexId> vertices;  ///< they share their nodes with no other
 };
 
@@ -32,6 +31,7 @@ struct Preparation {
   bool divides = true;  ///< edges at slivers and placed nodes: they and vertices then differ from the model's
   bool joins = true;    ///< coplanar faces may be joined
   std::set<int> uncrossed{};  ///< numbers of edges that no quad may cross
+  double reach_share = 1;     ///< of the length below which features are suppressed
 };
 
 /// Does not change in a run.
@@ -41,15 +41,15 @@ struct Prepared {
   Prepared(const Prepared&) = delete;
   Prepared& operator=(const Prepared&) = delete;
 
-  /// Leaves out what is too small, in `plan`, and finds the tips before which faces end.
-  /// \param to_tips 1 = the face does not end before its tips. \return 1 = the face is meshed
-  FaceFlags leave_out_tiny(const SuppressedFeatures& now, const FaceFlags& to_tips, SamplingPlan& plan) const;
+  /// Leaves out what is too small, in `plan`. \return 1 = the face is meshed
+  FaceFlags leave_out_tiny(const SuppressedFeatures& now, SamplingPlan& plan) const;
 
   MeshOptions options;  ///< with matched faces and edges among those to keep
   int vertices;         ///< of the model; the others divide edges or are placed inside faces
   SimplifiedModel simple;
   FaceFlags asked;  ///< 1 = is to be meshed, unless it is tiny
   SizeLimits limits;
+  double reach;  ///< features below it are suppressed, model units; 0 = none
   PlacedNodes placed;
   CadModel model;
   const CadShape& shape;

@@ -53,9 +53,8 @@ ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary&
   if (prepared.simple.bulge[face] > 0)
     notes.push_back(fmt::format("facets as one plane, which they leave by up to {}",
                                 number_text(prepared.simple.bulge[face])));
-  const auto end = boundary.nodes.unused.lower_bound({face, EdgeId()});
-  if (end != boundary.nodes.unused.end() && end->first.first == face)
-    notes.emplace_back("ends before a tip that is narrower than the reach");
+  if (boundary.plan.tiny.cuts(face))
+    notes.emplace_back("ends before a corner that is narrower than the reach");
   status.note = fmt::format("{}", fmt::join(notes, "; "));
   if (boundary.plan.tiny.merged_faces[face]) {
     status.status = FaceStatus::merged;

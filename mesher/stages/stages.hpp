@@ -43,12 +43,10 @@ struct Boundary {
       : plan(prepared.plan),
         suppressed(prepared.suppressed),
         meshed(prepared.meshed),
-        to_tips(prepared.shape.faces.size()),
         charts(prepared.shape.faces.size()) {}
   SamplingPlan plan;
   SuppressedFeatures suppressed;
-  FaceFlags meshed;   ///< 0 = the face is not to be meshed, or so small that it becomes an edge or node
-  FaceFlags to_tips;  ///< 1 = the face does not end before its tips
+  FaceFlags meshed;  ///< 0 = the face is not to be meshed, or so small that it becomes an edge or node
   EdgeTables tables;
   int rounds = 0;  ///< of sampling
   BoundaryNodes nodes;

@@ -1,6 +1,6 @@
-/// Faces end where they narrow towards a tip.
+/// Faces end before corners that are too narrow.
 
-#include "mesher/edges/tips.hpp"
+#include "mesher/edges/spikes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,10 +39,19 @@ CadModel plate_with_wedge(double base) {
                 {{0, 50}, {10, 50}, {100, high}, {100, 100}, {0, 100}}});
 }
 
-std::vector<Tip> tips_of(const CadModel& model, double width) {
+struct Found {
+  std::vector<EdgeCut> cuts;
+  std::vector<Sliver> spikes;  // once the edges are divided
+};
+
+Found spikes_of(const CadModel& model, double width) {
+  Found found;
+  EdgeEnds taken;
   const FaceFlags used(model.face_count(), 1);
-  const TinyFeatures tiny = find_tiny_features(model.shape(), used, EdgeFlags(model.shape().edges.size()), 0);
-  return find_tips(model.shape(), used, tiny, width);
+  for (const FaceId face : used.ids()) find_spikes(model.shape(), face, width, taken, found.cuts);
+  const auto divided = divided_at_slivers(model.shape(), used, width);
+  found.spikes = find_slivers(divided ? *divided : model.shape(), used, width);
+  return found;
 }
 
 ShellMesh meshed(const CadModel& model, MeshOptions options = {}) {
@@ -53,32 +62,50 @@ ShellMesh meshed(const CadModel& model, MeshOptions options = {}) {
 
 /// Whether the face's note says that it ends early.
 bool ends_early(const ShellMesh& mesh, int face) {
-  return mesh.faces[face - 1].note.find("tip") != std::string::npos;
+  return mesh.faces[face - 1].note.find("ends before a corner") != std::string::npos;
 }
 
-TEST(Tips, AreFoundWhereTwoEdgesStayCloserThanTheWidth) {
+TEST(Spikes, AreFoundWhereTwoEdgesStayCloserThanTheWidth) {
   const CadModel model = plate_with_wedge(10);
-  const auto tips = tips_of(model, 0.625);
-  ASSERT_EQ(tips.size(), 1U);
-  EXPECT_EQ(tips[0].face.number(), 1);
-  const CadShape& shape = model.shape();
-  const double share = 0.625 / 10;  // of the wedge
-  for (const Tip::Flank& side : {tips[0].before, tips[0].after}) {
-    const CadEdge& edge = shape.edges[side.edge];
-    const double from_tip = side.at_end ? edge.last - side.parameter : side.parameter - edge.first;
-    EXPECT_NEAR(from_tip / (edge.last - edge.first), share, 0.1 * share);
-    const Vector3& tip = shape.vertices[side.at_end ? edge.last_vertex : edge.first_vertex];
-    EXPECT_NEAR((tip - Vector3(10, 50, 0)).norm(), 0, 1e-6);
+  const Found found = spikes_of(model, 0.625);
+  ASSERT_EQ(found.cuts.size(), 2U);
+  for (const EdgeCut& cut : found.cuts) {
+    const auto& faces = model.shape().edges[cut.edge].faces;
+    EXPECT_EQ(faces.front().number(), 1);
+    EXPECT_NEAR(cut.point.x(), 10 + 0.9 * 0.625 / 10 * 90, 0.1);
   }
+  ASSERT_EQ(found.spikes.size(), 1U);
+  EXPECT_TRUE(found.spikes[0].is_spike);
+  EXPECT_EQ(found.spikes[0].face.number(), 1);
 }
 
-TEST(Tips, AreNoneWithoutAWidthOrInBluntCorners) {
-  EXPECT_TRUE(tips_of(plate_with_wedge(10), 0).empty());
-  EXPECT_TRUE(tips_of(plate_with_wedge(60), 0.625).empty());
-  EXPECT_TRUE(tips_of(plate_with_wedge(10), 6).empty());  // most of the wedge
+TEST(Spikes, AreNoneWithoutAWidthOrInBluntCorners) {
+  EXPECT_TRUE(spikes_of(plate_with_wedge(10), 0).spikes.empty());
+  EXPECT_TRUE(spikes_of(plate_with_wedge(60), 0.625).spikes.empty());
+  EXPECT_TRUE(spikes_of(plate_with_wedge(60), 0.625).cuts.empty());
 }
 
-TEST(Tips, AreLeftOutOfTheMesh) {
+/// A plate with a slit of no width at its end: the face lies around it, not between its sides.
+TEST(Spikes, AreNoSlits) {
+  const CadModel model =
+      sheet({{{0, 0}, {100, 0}, {100, 49.9}, {40, 50}, {100, 50.1}, {100, 100}, {0, 100}}});
+  EXPECT_TRUE(spikes_of(model, 0.6).cuts.empty());
+  EXPECT_TRUE(spikes_of(model, 0.6).spikes.empty());
+}
+
+/// A short edge that lies along all of its neighbor's beginning.
+TEST(Spikes, BeginAtShortEdges) {
+  const CadModel model = sheet({{{0, 0}, {50, 0}, {52, 0.2}, {50, 0.4}, {50, 30}, {0, 30}},
+                                {{50, 0}, {50, -30}, {80, -30}, {80, 30}, {50, 30}, {50, 0.4}, {52, 0.2}}});
+  const Found found = spikes_of(model, 0.6);
+  ASSERT_EQ(found.spikes.size(), 1U);
+  EXPECT_EQ(found.spikes[0].face.number(), 1);
+  const ShellMesh mesh = meshed(model);
+  EXPECT_EQ(validate(mesh), std::vector<std::string>{});
+  EXPECT_TRUE(ends_early(mesh, 1));
+}
+
+TEST(Spikes, AreLeftOutOfTheMesh) {
   const CadModel model = plate_with_wedge(10);
   const ShellMesh early = meshed(model);
   MeshOptions options;
@@ -109,15 +136,15 @@ TEST(Tips, AreLeftOutOfTheMesh) {
   EXPECT_NEAR(area, 100 * 100, 1e-6);
 }
 
-TEST(Tips, StayBesideEdgesThatUsersDivide) {
+TEST(Spikes, StayBesideEdgesThatUsersDivide) {
   const CadModel model = plate_with_wedge(10);
-  const auto tips = tips_of(model, 0.625);
   MeshOptions options;
-  options.sizing.spacings[model.shape().edges[tips.at(0).before.edge].number] = {.segments = 40};
+  options.sizing.spacings[model.shape().edges[spikes_of(model, 0.625).cuts.at(0).edge].number] = {.segments =
+                                                                                                      40};
   EXPECT_FALSE(ends_early(meshed(model, options), 1));
 }
 
-TEST(Tips, EndMeshesOfTheSecondOrderToo) {
+TEST(Spikes, EndMeshesOfTheSecondOrderToo) {
   MeshOptions options;
   options.order = 2;
   const ShellMesh mesh = meshed(plate_with_wedge(10), options);
@@ -143,19 +170,14 @@ CadModel disc_with_touching_circle(double radius) {
   return CadModel(std::make_shared<CadShape>(shell, "disc"));
 }
 
-TEST(Tips, LieOnBothSidesOfAVertexWhereWiresTouch) {
-  const CadModel model = disc_with_touching_circle(12);
-  const auto tips = tips_of(model, 0.3);
-  ASSERT_EQ(tips.size(), 2U);
-  for (const Tip& tip : tips) {
-    EXPECT_EQ(tip.face.number(), 1);
-    EXPECT_NE(tip.before.edge, tip.after.edge);
-    EXPECT_EQ(tip.before.at_end, tip.after.at_end);  // both run counterclockwise
-  }
-  EXPECT_NE(tips[0].before.edge, tips[1].before.edge);
+TEST(Spikes, LieOnBothSidesOfAVertexWhereWiresTouch) {
+  const Found found = spikes_of(disc_with_touching_circle(12), 0.3);
+  EXPECT_EQ(found.cuts.size(), 4U);
+  ASSERT_EQ(found.spikes.size(), 2U);
+  for (const Sliver& spike : found.spikes) EXPECT_EQ(spike.face.number(), 1);
 }
 
-TEST(Tips, EndWhereWiresTouch) {
+TEST(Spikes, EndWhereWiresTouch) {
   const CadModel model = disc_with_touching_circle(12);
   for (const Strategy strategy : {Strategy::subdivide, Strategy::direct}) {
     MeshOptions options;

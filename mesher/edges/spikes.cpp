@@ -1,0 +1,194 @@
+/// Walks both edges out of a narrow corner to where they are one width apart, or to where the shorter one
+/// ends.
+
+#include "mesher/edges/spikes.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/surfaces/edge_curve.hpp"
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/tiny_features.hpp"
+
+namespace quadrille {
+
+namespace {
+
+/// A spike is at least this many times as long as it is wide: an angle of 23 degrees between straight edges.
+constexpr double least_slenderness = 2.5;
+/// Directions at the corner farther apart than this are not looked at.
+constexpr double least_cosine = 0.85;
+
+/// An edge from the corner to its other end, in samples that get sparser.
+struct Arm {
+  EdgeCurve curve;
+  std::vector<double> parameters;
+  std::vector<Vector3> points;
+};
+
+struct Place {
+  double distance = std::numeric_limits<double>::infinity();
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
+Place nearest_on(const Arm& arm, const Vector3& p) {
+  Place result;
+  for (std::size_t i = 0; i + 1 < arm.points.size(); ++i) {
+    const double t = nearest_share(arm.points[i], arm.points[i + 1], p);
+    const Vector3 point = arm.points[i] + t * (arm.points[i + 1] - arm.points[i]);
+    const double distance = (p - point).norm();
+    if (distance < result.distance)
+      result = {distance, arm.parameters[i] + t * (arm.parameters[i + 1] - arm.parameters[i]), point};
+  }
+  return result;
+}
+
+/// The place on an arm where the other one is first as far away as the limit; none if it is nowhere.
+std::optional<Place> limit_reached(const Arm& arm, const Arm& other, double limit) {
+  std::size_t i = 1;
+  while (i < arm.points.size() && nearest_on(other, arm.points[i]).distance < limit) ++i;
+  if (i >= arm.points.size()) return std::nullopt;
+  double low = arm.parameters[i - 1], high = arm.parameters[i];
+  constexpr int halvings = 12;
+  for (int k = 0; k < halvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (nearest_on(other, arm.curve.point(middle)).distance < limit ? low : high) = middle;
+  }
+  return Place{limit, low, arm.curve.point(low)};
+}
+
+bool lie_together(const Arm& one, const Arm& other, double limit) {
+  return !limit_reached(one, other, limit) && !limit_reached(other, one, limit);
+}
+
+class SpikeFinder {
+ public:
+  SpikeFinder(const CadShape& shape, FaceId id, double width, EdgeEnds& taken, std::vector<EdgeCut>& cuts)
+      : shape_(shape), id_(id), width_(width), taken_(taken), cuts_(cuts) {}
+
+  std::vector<Sliver> run() && {
+    std::vector<const Coedge*> arriving;
+    std::multimap<VertexId, const Coedge*> leaving;  // wires may touch at a vertex
+    for (const CadWire& wire : shape_.faces[id_].wires) {
+      if (!wire.ordered) continue;
+      std::vector<const Coedge*> coedges;
+      for (const Coedge& coedge : wire.coedges)
+        if (!is_small(shape_.edges[coedge.edge], width_)) coedges.push_back(&coedge);
+      for (std::size_t i = 0; i < coedges.size(); ++i) {
+        leaving.emplace(vertex_at(*coedges[i], false), coedges[i]);
+        arriving.push_back(coedges[i]);
+        add(*coedges[i], *coedges[(i + 1) % coedges.size()]);
+      }
+    }
+    for (const Coedge* before : arriving) {
+      const auto [first, last] = leaving.equal_range(vertex_at(*before, true));
+      for (auto after = first; after != last; ++after) add(*before, *after->second);
+    }
+    return std::move(found_);
+  }
+
+ private:
+  /// The vertex where a coedge begins, or ends.
+  VertexId vertex_at(const Coedge& coedge, bool end) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
+    return coedge.forward == end ? edge.last_vertex : edge.first_vertex;
+  }
+
+  bool may_narrow(const Coedge& coedge) const {
+    const CadEdge& edge = shape_.edges[coedge.edge];
+    return !coedge.internal && !edge.degenerate && edge.first_vertex.exists() && edge.last_vertex.exists() &&
+           std::count(edge.faces.begin(), edge.faces.end(), id_) == 1;
+  }
+
+  void add(const Coedge& before, const Coedge& after) {
+    const std::pair arrival{before.edge, before.forward}, departure{after.edge, !after.forward};
+    if (before.edge == after.edge || taken_.contains(arrival) || taken_.contains(departure)) return;
+    if (may_narrow(before) && may_narrow(after) && look_between(before, after))
+      taken_.insert({arrival, departure});
+  }
+
+  /// \return whether there is a spike, or will be one once edges are divided.
+  bool look_between(const Coedge& before, const Coedge& after) {
+    const CadEdge &a = shape_.edges[before.edge], &b = shape_.edges[after.edge];
+    const EdgeCurve first(a), second(b);
+    const Vector3 to = (before.forward ? -1 : 1) * first.derivative(before.forward ? a.last : a.first),
+                  from = (after.forward ? 1 : -1) * second.derivative(after.forward ? b.first : b.last);
+    if (!(to.dot(from) > least_cosine * to.norm() * from.norm())) return false;
+    const Arm one = arm_of(a, !before.forward), two = arm_of(b, after.forward);
+    const double slender = std::min(a.length, b.length) / least_slenderness;
+    const Vector3 &last = one.points.back(), &other_last = two.points.back();
+    if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, slender))) {
+      if (!lies_between(before, one.parameters.back(), first, other_last)) return false;
+      found_.push_back({.face = id_,
+                        .pairs = {{before.edge, after.edge, before.forward == after.forward}},
+                        .ties = {{vertex_at(before, false), vertex_at(after, true)}},
+                        .joints = {{vertex_at(before, true), vertex_at(after, false)}},
+                        .rims = {},
+                        .is_spike = true});
+      return true;
+    }
+    // Once divided there, the edges are closer than the width from end to end.
+    constexpr double below = 0.9;
+    const double limit = std::min(below * width_, slender);
+    const std::optional<Place> end = limit_reached(one, two, limit), other = limit_reached(two, one, limit);
+    const Place facing = nearest_on(two, end ? end->point : last);
+    if (!lies_between(before, end ? end->parameter : one.parameters.back(), first, facing.point))
+      return false;
+    const auto may_cut = [&](const Arm& arm, const Place& place) {
+      return (place.point - arm.points.front()).norm() > least_slenderness * limit &&
+             (place.point - arm.points.back()).norm() > width_;
+    };
+    // An edge that stays close to the other one up to its end stays whole.
+    const Place place = end && !other ? nearest_on(one, other_last) : end.value_or(Place());
+    if ((end && !may_cut(one, place)) || ((other || !end) && !may_cut(two, facing))) return false;
+    if (end) cuts_.push_back({before.edge, place.parameter, place.point});
+    if (other || !end) cuts_.push_back({after.edge, facing.parameter, facing.point});
+    return true;
+  }
+
+  Arm arm_of(const CadEdge& edge, bool from_start) const {
+    constexpr double finer = 0.1, growth = 1.15;
+    Arm arm{EdgeCurve(edge), {}, {}};
+    const double range = (edge.last - edge.first) / edge.length;
+    const auto add = [&](double s) {
+      arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);
+      arm.points.push_back(arm.curve.point(arm.parameters.back()));
+    };
+    double step = finer * width_;
+    for (double s = 0; s < edge.length; s += step, step *= growth) add(s);
+    add(edge.length);
+    return arm;
+  }
+
+  /// Whether the face lies between the two places, to the left of its wire, rather than around them.
+  bool lies_between(const Coedge& before, double parameter, const EdgeCurve& curve,
+                    const Vector3& facing) const {
+    const FaceSurface surface(shape_.faces[id_]);
+    const Vector3 normal = surface.normal(parametric_point(before, parameter)),
+                  along = (before.forward ? 1 : -1) * curve.derivative(parameter);
+    return normal.cross(along).dot(facing - curve.point(parameter)) > 0;
+  }
+
+  const CadShape& shape_;
+  FaceId id_;
+  double width_;
+  EdgeEnds& taken_;
+  std::vector<EdgeCut>& cuts_;
+  std::vector<Sliver> found_;
+};
+
+}  // namespace
+
+std::vector<Sliver> find_spikes(const CadShape& shape, FaceId face, double width, EdgeEnds& taken,
+                                std::vector<EdgeCut>& cuts) {
+  if (!(width > 0)) return {};
+  return SpikeFinder(shape, face, width, taken, cuts).run();
+}
+
+}  // namespace quadrille

@@ -1,0 +1,23 @@
+#pragma once
+/// Narrow corners of faces, which are left out of the mesh: 8 % fewer quads outside the limits on real parts
+/// (decision 67). Internal.
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "geometry/cad/cad_shape.hpp"
+#include "mesher/edges/slivers.hpp"
+
+namespace quadrille {
+
+using EdgeEnds = std::set<std::pair<EdgeId, bool>>;
+
+/// The spikes of a face: parts between two edges that meet, of one wire or of two that touch, as long as
+/// these stay closer than `width`, over more than 2.5 times their distance. Cusps, and ends of fillets that
+/// run out. Edges shorter than the width are passed over. \param cuts gets the places that have to be divided
+/// first, so that a spike lies between two whole edges
+std::vector<Sliver> find_spikes(const CadShape& shape, FaceId face, double width, EdgeEnds& taken,
+                                std::vector<EdgeCut>& cuts);
+
+}  // namespace quadrille
