@@ -35,12 +35,13 @@ BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box
          "square_tube", "round_tube", "channel_with_bends", "l_section", "z_section", "hat_section")
 # Solids that touch, as Gmsh makes them; the axis at whose low end they are held, and that at whose high end they are loaded.
 ASSEMBLIES = {
-    "lap": ("Box(1) = {0, 0, 0, 60, 40, 3}; Box(2) = {40, 0, 3, 60, 40, 3};", 0, 0),
-    "angle": ("Box(1) = {0, 0, 0, 60, 40, 3}; Box(2) = {30, 5, 3, 20, 30, 3}; Box(3) = {47, 5, 6, 3, 30, 40};", 0, 2),
-    "tube": ("Box(1) = {0, 0, 0, 60, 60, 3}; Cylinder(2) = {30, 30, 3, 0, 0, 50, 15}; Cylinder(3) = {30, 30, 3, 0, 0, 50, 13};"
+    "lap": ("Box(1) = {0, 0, 0, 100, 40, 3}; Box(2) = {80, 0, 3, 100, 40, 3};", 0, 0),
+    "angle": ("Box(1) = {0, 0, 0, 120, 80, 3}; Box(2) = {60, 10, 3, 40, 60, 3}; Box(3) = {97, 10, 6, 3, 60, 80};", 0, 2),
+    "tube": ("Box(1) = {0, 0, 0, 120, 120, 3}; Cylinder(2) = {60, 60, 3, 0, 0, 100, 25}; Cylinder(3) = {60, 60, 3, 0, 0, 100, 22};"
              "BooleanDifference{ Volume{2}; Delete; }{ Volume{3}; Delete; }", 0, 2),
-    "gusset": ("Box(1) = {0, 0, 0, 80, 40, 3}; Box(2) = {50, 0, 3, 3, 40, 50}; Wedge(3) = {50, 21.5, 3, -30, 30, 3};"
-               "Rotate{ {1, 0, 0}, {50, 21.5, 3}, Pi/2 }{ Volume{3}; }", 0, 2),
+    "gusset": ("Box(1) = {0, 0, 0, 120, 60, 3}; Box(2) = {80, 0, 3, 3, 60, 80}; Wedge(3) = {0, 0, 0, 40, 40, 3, 0};"
+               "Rotate{ {1, 0, 0}, {0, 0, 0}, Pi/2 }{ Volume{3}; } Rotate{ {0, 0, 1}, {0, 0, 0}, Pi }{ Volume{3}; }"
+               "Translate{ 80, 28.5, 3 }{ Volume{3}; }", 0, 2),
 }
 MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSITY}"
 
@@ -238,7 +239,7 @@ def solids(folder, build, models, fine):
         run("gmsh", "-0", "apart.geo", "-o", "apart.step", folder=folder)
         fuse = "v() = Volume{:};\nBooleanUnion{ Volume{v(0)}; Delete; }{ Volume{v({1:#v()-1})}; Delete; }\n"
         (folder / "fused.geo").write_text((folder / "apart.geo").read_text() + fuse)
-        shell = shell_mesh(folder, build, folder / "apart.step", 1.5, axis, ["--join"])
+        shell = shell_mesh(folder, build, folder / "apart.step", 3, axis, ["--join"])
         solid = tetrahedra(folder, folder / "fused.geo", min(thicknesses_of(shell[1]).values()) * fine, axis)
         compare(folder, name, shell, solid, hold, axis)
 
