@@ -29,7 +29,7 @@ from quadrille.document import findings, links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import background, commands, findings_table, overlays, preferences
+from quadrille.gui import background, commands, drawn_icon, findings_table, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -1127,6 +1127,17 @@ class PanelTest(GuiCase):
             self.assertTrue(info["statusTip"], name)
             self.assertEqual(shortcuts[info["shortcut"]], [name])
         self.assertEqual(len(icons), len(commands.COMMANDS))
+
+    def test_icons_differ_without_color(self):
+        def gray(name):
+            picture = drawn_icon(commands.COMMANDS[name].pixmap).pixmap(24, 24).toImage()
+            return np.array([[QtGui.qGray(picture.pixel(x, y)) * QtGui.qAlpha(picture.pixel(x, y)) / 255 for x in range(24)]
+                             for y in range(24)])
+
+        names = sorted(commands.COMMANDS)
+        pictures = {name: gray(name) for name in names}
+        apart = {(one, other): np.abs(pictures[one] - pictures[other]).mean() for one in names for other in names if one < other}
+        self.assertGreater(min(apart.values()), 7, min(apart, key=apart.get))
 
     # Figures
 
