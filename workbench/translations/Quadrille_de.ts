@@ -943,6 +943,22 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
         <translation>{}: mit Größe {:g} nicht zu vernetzen: sie muss über 0 sein</translation>
     </message>
+    <message>
+        <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
+        <translation>{}: seine {} Flächen brauchen mehr als {}, wenn Elemente nicht größer als ein Zehntel des Teils sind</translation>
+    </message>
+    <message>
+        <source>layers: {} of {} quads along it are the first of {} rows</source>
+        <translation>Schichten: {} von {} Vierecken daran sind die ersten von {} Reihen</translation>
+    </message>
+    <message>
+        <source>pair: {} has the same {} nodes</source>
+        <translation>Paar: {} hat dieselben {} Knoten</translation>
+    </message>
+    <message>
+        <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
+        <translation>{}: steht nicht auf der Liste dessen, was erhalten bleiben soll; die Tabelle sagt, warum der Vernetzer selbst eine Kante erhält</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -813,7 +813,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: {} is no longer on its surface</source>
-        <translation>{} : {} n&apos;est plus sur sa surface</translation>
+        <translation>{} : {} n'est plus sur sa surface</translation>
     </message>
     <message>
         <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
@@ -837,7 +837,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: the part has no such face to flip</source>
-        <translation>{} : la pièce n&apos;a pas cette face à inverser</translation>
+        <translation>{} : la pièce n'a pas cette face à inverser</translation>
     </message>
     <message>
         <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
@@ -845,23 +845,23 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}.{}: is not in the meshed part</source>
-        <translation>{}.{} : n&apos;est pas dans la pièce maillée</translation>
+        <translation>{}.{} : n'est pas dans la pièce maillée</translation>
     </message>
     <message>
         <source>Solid{}: is not in the meshed part</source>
-        <translation>Solid{} : n&apos;est pas dans la pièce maillée</translation>
+        <translation>Solid{} : n'est pas dans la pièce maillée</translation>
     </message>
     <message>
         <source>{}: the part that it meshes is gone</source>
-        <translation>{} : la pièce maillée n&apos;existe plus</translation>
+        <translation>{} : la pièce maillée n'existe plus</translation>
     </message>
     <message>
         <source>{}: has no shape to mesh</source>
-        <translation>{} : n&apos;a pas de forme à mailler</translation>
+        <translation>{} : n'a pas de forme à mailler</translation>
     </message>
     <message>
         <source>{}: its shape has no faces to mesh</source>
-        <translation>{} : sa forme n&apos;a pas de faces à mailler</translation>
+        <translation>{} : sa forme n'a pas de faces à mailler</translation>
     </message>
     <message>
         <source>{}: a mesh region needs a length larger than 0</source>
@@ -873,15 +873,15 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
-        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l&apos;effacer d&apos;abord</translation>
+        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l'effacer d'abord</translation>
     </message>
     <message>
         <source>{}: is not in an analysis: add it to one, and solve that first</source>
-        <translation>{} : n&apos;est dans aucune analyse : l&apos;ajouter à une analyse, et la résoudre d&apos;abord</translation>
+        <translation>{} : n'est dans aucune analyse : l'ajouter à une analyse, et la résoudre d'abord</translation>
     </message>
     <message>
         <source>{}: has no result with displacements: solve it with {} first</source>
-        <translation>{} : n&apos;a pas de résultat avec déplacements : résoudre d&apos;abord avec {}</translation>
+        <translation>{} : n'a pas de résultat avec déplacements : résoudre d'abord avec {}</translation>
     </message>
     <message>
         <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
@@ -889,27 +889,27 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
-        <translation>{} : n&apos;a de résultats qu&apos;au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
+        <translation>{} : n'a de résultats qu'au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
     </message>
     <message>
         <source>{}: has no shell elements: an element has {} nodes</source>
-        <translation>{} : n&apos;a pas d&apos;éléments coques : un élément a {} nœuds</translation>
+        <translation>{} : n'a pas d'éléments coques : un élément a {} nœuds</translation>
     </message>
     <message>
         <source>{}: has no displacements: solve again</source>
-        <translation>{} : n&apos;a pas de déplacements : résoudre de nouveau</translation>
+        <translation>{} : n'a pas de déplacements : résoudre de nouveau</translation>
     </message>
     <message>
         <source>{}: is being meshed already; wait for it, or cancel it first</source>
-        <translation>{} : est déjà en cours de maillage ; attendre, ou l&apos;annuler d&apos;abord</translation>
+        <translation>{} : est déjà en cours de maillage ; attendre, ou l'annuler d'abord</translation>
     </message>
     <message>
         <source>{}: has no face {} to flip</source>
-        <translation>{} : n&apos;a pas de face {} à inverser</translation>
+        <translation>{} : n'a pas de face {} à inverser</translation>
     </message>
     <message>
         <source>{}: {}; nothing was exported</source>
-        <translation>{} : {} ; rien n&apos;a été exporté</translation>
+        <translation>{} : {} ; rien n'a été exporté</translation>
     </message>
     <message>
         <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
@@ -921,27 +921,43 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: is not a FEM analysis</source>
-        <translation>{} : n&apos;est pas une analyse FEM</translation>
+        <translation>{} : n'est pas une analyse FEM</translation>
     </message>
     <message>
         <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
-        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu&apos;avec un seul</translation>
+        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu'avec un seul</translation>
     </message>
     <message>
         <source>{}: has no solid; a middle surface is made of solids</source>
-        <translation>{} : n&apos;a pas de solide ; une surface moyenne se fait à partir de solides</translation>
+        <translation>{} : n'a pas de solide ; une surface moyenne se fait à partir de solides</translation>
     </message>
     <message>
         <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
-        <translation>{} : n&apos;est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
+        <translation>{} : n'est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
     </message>
     <message>
         <source>{}: has no triangles to mesh</source>
-        <translation>{} : n&apos;a pas de triangles à mailler</translation>
+        <translation>{} : n'a pas de triangles à mailler</translation>
     </message>
     <message>
         <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
         <translation>{} : ne peut être maillé à la taille {:g} : elle doit être supérieure à 0</translation>
+    </message>
+    <message>
+        <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
+        <translation>{} : ses {} faces en demandent plus de {}, sauf si les éléments dépassent un dixième de la pièce</translation>
+    </message>
+    <message>
+        <source>layers: {} of {} quads along it are the first of {} rows</source>
+        <translation>couches : {} des {} quadrangles le long sont les premiers de {} rangées</translation>
+    </message>
+    <message>
+        <source>pair: {} has the same {} nodes</source>
+        <translation>paire : {} a les mêmes {} nœuds</translation>
+    </message>
+    <message>
+        <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
+        <translation>{} : ne figure pas dans la liste de ce qui est à garder ; le tableau dit pourquoi le mailleur garde lui-même une arête</translation>
     </message>
 </context>
 <context>

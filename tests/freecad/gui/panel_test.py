@@ -338,6 +338,30 @@ class PanelTest(GuiCase):
         self.assertEqual(mesh.Keep, [short, gone[0]])
         close_panel()
 
+    def test_layers_and_pairs_say_what_they_did(self):
+        part = self.document.addObject("Part::Feature", "Plate")
+        part.Shape = Part.makeBox(20, 20, 2).cut(Part.makeCylinder(4, 2, FreeCAD.Vector(10, 10, 0)))
+        rim = next(f"Edge{k}" for k, edge in enumerate(part.Shape.Edges, 1) if isinstance(edge.Curve, Part.Circle))
+        self.show()
+        mesh = quadrille.freecad.mesh_object(part, size=1.5, layers={rim: (0.2, 1.3, 4)}, match={"Face1": "Face4"})
+        self.edit(mesh)
+        # There is room for four rows on the plate, and none on the wall of the hole, which is a grid.
+        told, around = self.found(), mesh.FemMesh
+        segments = sum(len(around.getGroupElements(k)) for k in around.Groups if around.getGroupName(k) == rim)
+        self.assertEqual(told[rim][0], f"layers: {segments} of {2 * segments} quads along it are the first of 4 rows")
+        nodes = {node for k in around.Groups if around.getGroupName(k) == "Face4" for quad in around.getGroupElements(k)
+                 for node in around.getElementNodes(quad)}
+        self.assertEqual(told["Face1 (+1)"][0], f"pair: Face4 has the same {len(nodes)} nodes")
+        self.click_finding("Face1 (+1)")
+        self.assertEqual(self.selected(), ["Face1", "Face4"])
+        self.assertTrue(overlays.is_shown(mesh, overlays.MARKS))
+        picture("pair")
+        # What is not on the list of those to keep cannot be taken off it.
+        find("QuadrilleSuppress").click()
+        self.assertIn("Face1, Face4: not on the list", window().statusBar().currentMessage())
+        self.assertEqual(find("QuadrilleStatus").text(), state.UP_TO_DATE)
+        close_panel()
+
     def test_long_lists_of_findings_are_cut(self):
         small = [{"name": f"Edge{number}", "to": "Vertex1", "distance": 0.001 * number} for number in range(1, 1001)]
         poor = {"name": "Face1", "quads": 2, "shortest": 0.1, "forced": True, "cause": "short edge", "why": "it is 0.1 long"}
@@ -1165,6 +1189,28 @@ class PanelTest(GuiCase):
         mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
         self.assertEqual(mesh.Size.Value, suggested)
         close_panel()
+
+    def test_a_number_that_cannot_be_reached_is_told(self):
+        wanted = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Quadrille")
+        wanted.SetInt("Elements", 100)
+        self.addCleanup(wanted.RemInt, "Elements")
+        mesh = self.open_panel(self.box())
+        label = find("QuadrilleEstimate")
+        told = label.text()
+        self.assertRegex(told, r"^about \d+ quads: its 6 faces need more than 100, unless elements are larger than a tenth of the part$")
+        self.press_mesh()
+        self.assertLess(abs(int(told.split()[1]) / mesh.QuadCount - 1), 0.25)
+        type_into("QuadrilleSize", "5 mm")
+        wait_for(lambda: not label.text().endswith("..."), what="the count")
+        self.assertEqual(label.text(), "about 24 quads")
+        find("QuadrilleSuggest").click()
+        wait_for(lambda: not label.text().endswith("..."), what="the size")
+        self.assertEqual(label.text(), told)
+        wanted.SetInt("Elements", 1000)
+        find("QuadrilleSuggest").click()
+        wait_for(lambda: not label.text().endswith("..."), what="the size")
+        self.assertRegex(label.text(), r"^about \d[ \d]+ quads$")
+        close_panel(CANCEL)
 
     def test_four_clicks_and_a_quick_panel(self):
         """The part, the command, Mesh, OK: four clicks. The panel of a part of 700 faces opens before its quads are counted."""
