@@ -959,6 +959,154 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
         <translation>{} : ne figure pas dans la liste de ce qui est à garder ; le tableau dit pourquoi le mailleur garde lui-même une arête</translation>
     </message>
+    <message>
+        <source>the folder for temporary files</source>
+        <translation>le dossier des fichiers temporaires</translation>
+    </message>
+    <message>
+        <source>{}: no temporary folder can be made there ({}); set the environment variable TMPDIR to a folder that can be written</source>
+        <translation>{} : impossible d’y créer un dossier temporaire ({}) ; donner à la variable d’environnement TMPDIR un dossier accessible en écriture</translation>
+    </message>
+    <message>
+        <source>flatpak-spawn: cannot run programs outside of Flatpak ({}); allow it with &apos;flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD&apos;</source>
+        <translation>flatpak-spawn : impossible de lancer des programmes hors de Flatpak ({}) ; l’autoriser par 'flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'</translation>
+    </message>
+    <message>
+        <source>the argument &apos;command&apos;</source>
+        <translation>l’argument 'command'</translation>
+    </message>
+    <message>
+        <source>the environment variable QUADRILLE_COMMAND</source>
+        <translation>la variable d’environnement QUADRILLE_COMMAND</translation>
+    </message>
+    <message>
+        <source>the preference &apos;Command&apos;</source>
+        <translation>la préférence 'Command'</translation>
+    </message>
+    <message>
+        <source>{}: cannot be run, though {} names it as the mesher</source>
+        <translation>{} : ne peut pas être exécuté, bien que {} le désigne comme mailleur</translation>
+    </message>
+    <message>
+        <source>the command &apos;quadrille&apos; is not on PATH; install it, or name its path in the environment variable QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command</source>
+        <translation>la commande 'quadrille' n’est pas dans PATH ; l’installer, ou donner son chemin dans la variable d’environnement QUADRILLE_COMMAND ou dans la préférence Mod/Quadrille/Command</translation>
+    </message>
+    <message>
+        <source>{}: does not print its version ({}); install Quadrille {}</source>
+        <translation>{} : n’affiche pas sa version ({}) ; installer Quadrille {}</translation>
+    </message>
+    <message>
+        <source>{}: is not the quadrille command; install Quadrille {}, or correct the preference Mod/Quadrille/Command</source>
+        <translation>{} : n’est pas la commande quadrille ; installer Quadrille {}, ou corriger la préférence Mod/Quadrille/Command</translation>
+    </message>
+    <message>
+        <source>{}: is of version {}, and this addon needs {}; install the two from one release</source>
+        <translation>{} : est de version {}, et cette extension demande {} ; installer les deux de la même version</translation>
+    </message>
+    <message>
+        <source>the work was cancelled</source>
+        <translation>le travail a été annulé</translation>
+    </message>
+    <message>
+        <source>{}: cannot be started: {}</source>
+        <translation>{} : ne peut pas être lancé : {}</translation>
+    </message>
+    <message>
+        <source>the mesher was killed by signal {}</source>
+        <translation>le mailleur a été tué par le signal {}</translation>
+    </message>
+    <message>
+        <source>the meshing was cancelled</source>
+        <translation>le maillage a été annulé</translation>
+    </message>
+    <message>
+        <source>the mesher ended with exit code {}</source>
+        <translation>le mailleur s’est terminé avec le code {}</translation>
+    </message>
+    <message>
+        <source>FreeCAD read {} of the {} quads that {} wrote</source>
+        <translation>FreeCAD a lu {} des {} quadrangles écrits par {}</translation>
+    </message>
+    <message>
+        <source>the shape has no faces to mesh</source>
+        <translation>la forme n’a pas de faces à mailler</translation>
+    </message>
+    <message>
+        <source>{}: cannot be read ({})</source>
+        <translation>{} : ne peut pas être lu ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not the address of a file (https://.../quadrille-...tar.xz)</source>
+        <translation>{} : n’est pas l’adresse d’un fichier (https://.../quadrille-...tar.xz)</translation>
+    </message>
+    <message>
+        <source>{}: was cancelled</source>
+        <translation>{} : annulé</translation>
+    </message>
+    <message>
+        <source>{}: ended after {} of {} bytes</source>
+        <translation>{} : s’est arrêté après {} octets sur {}</translation>
+    </message>
+    <message>
+        <source>{}: cannot be downloaded ({})</source>
+        <translation>{} : ne peut pas être téléchargé ({})</translation>
+    </message>
+    <message>
+        <source>{}: is refused: {} would lie outside of its folder</source>
+        <translation>{} : refusé : {} se trouverait hors de son dossier</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille</source>
+        <translation>{} : n’est pas un paquet de Quadrille</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written ({})</source>
+        <translation>{} : ne peut pas être écrit ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille: it has no bin/quadrille</source>
+        <translation>{} : n’est pas un paquet de Quadrille : il n’a pas de bin/quadrille</translation>
+    </message>
+    <message>
+        <source>{}: cannot be unpacked ({})</source>
+        <translation>{} : ne peut pas être décompressé ({})</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of second order: set its order, and mesh again</source>
+        <translation>{} : l’élément {} demande un maillage du second ordre : régler son ordre et mailler à nouveau</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of first order: set its order, and mesh again</source>
+        <translation>{} : l’élément {} demande un maillage du premier ordre : régler son ordre et mailler à nouveau</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a part in the plane z = 0, and this one leaves it by {} mm: move or rotate it there</source>
+        <translation>{} : l’élément {} demande une pièce dans le plan z = 0, et celle-ci s’en écarte de {} mm : l’y déplacer ou l’y tourner</translation>
+    </message>
+    <message>
+        <source>{}: Element {} has the y axis as its axis of symmetry, and the part reaches to x = {} mm: move it to positive x</source>
+        <translation>{} : l’élément {} a l’axe y pour axe de symétrie, et la pièce va jusqu’à x = {} mm : la déplacer vers les x positifs</translation>
+    </message>
+    <message>
+        <source>elements are written as {} (its property Element)</source>
+        <translation>les éléments sont écrits comme {} (sa propriété Element)</translation>
+    </message>
+    <message>
+        <source>shells are written as S8R, which is better than S8 where they are thin (its property ReducedShells)</source>
+        <translation>les coques sont écrites comme S8R, mieux que S8 là où elles sont minces (sa propriété ReducedShells)</translation>
+    </message>
+    <message>
+        <source>shells are written with the offset {} (its property ShellOffset)</source>
+        <translation>les coques sont écrites avec le décalage {} (sa propriété ShellOffset)</translation>
+    </message>
+    <message>
+        <source>{}: shows stresses at the middle of the shell; those of bending are at its surfaces: set {} of {} to true, and solve again</source>
+        <translation>{} : montre les contraintes au milieu de la coque ; celles de flexion sont à ses surfaces : mettre {} de {} à vrai et résoudre à nouveau</translation>
+    </message>
+    <message>
+        <source>the search for the middle surface was cancelled</source>
+        <translation>la recherche de la surface moyenne a été annulée</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

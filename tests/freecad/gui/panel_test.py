@@ -1114,6 +1114,26 @@ class PanelTest(GuiCase):
                     FreeCADGui.setLocale("English")
                     process(0.2)
 
+    def test_errors_are_in_the_language(self):
+        for language, stopped, refused in (("German", "das Vernetzen wurde abgebrochen", "lässt sich nicht ausführen"),
+                                           ("French", "le maillage a été annulé", "ne peut pas être exécuté")):
+            with self.subTest(language=language):
+                self.addCleanup(FreeCADGui.setLocale, "English")
+                self.open_panel(self.bracket())
+                FreeCADGui.setLocale(language)
+                type_into("QuadrilleSize", "0,4 mm")
+                find("QuadrilleMesh").click()
+                find("QuadrilleStop").click()
+                wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="the end")
+                self.assertIn(stopped, find("QuadrilleLog").toPlainText())
+                with mock.patch.dict(os.environ, QUADRILLE_COMMAND="/nowhere/quadrille"), Boxes() as boxes:
+                    find("QuadrilleMesh").click()
+                    process(0.3)
+                self.assertEqual(len(boxes.texts), 1)
+                self.assertIn(refused, boxes.texts[0])
+                close_panel(CANCEL)
+                FreeCADGui.setLocale("English")
+
     def test_languages_are_complete(self):
         folder = Path(quadrille.freecad.__file__).resolve().parents[1] / "translations"
         files = sorted(folder.glob("*.ts"))
@@ -1129,7 +1149,7 @@ class PanelTest(GuiCase):
                     self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
                     self.assertEqual(compiled.translate(context.find("name").text, source), translation.text,
                                      f"{file.name} has changed: scripts/translations.sh compiles it")
-        for room in ("document", "features", "gui"):
+        for room in ("core", "document", "solvers", "features", "gui"):
             for source in (folder.parent / "quadrille" / room).glob("*.py"):
                 self.assertNotRegex(source.read_text(encoding="utf-8"), r'[ (]Error\(\s*f?"', f"{source}: translate errors")
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
