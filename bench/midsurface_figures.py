@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Measures middle surfaces: the tables of docs/midsurface.md.
 
-    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket | --solids FILE... [--fine SHARE]]
+    bench/midsurface_figures.py [--build BUILD] [--beams [NAME...] [--check] | --bracket | [--assemblies | --solids FILE...] [--fine SHARE]]
 
 Without options: for each thin test model, area times thickness over volume, the number of parts, edges inside the
 material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R on the middle surface, compared with C3D20R of
 the same solid: deflection under a uniform load on the section at the tip, and the first bending frequency, both by
 CalculiX (ccx on the PATH). With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R, the
 reference for its shell. With --solids: CAD files of thin solids, clamped at the low end of their longest axis and loaded
-at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE.
+at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE. With --assemblies: the same for solids that touch, meshed with
+--join, and fused by Gmsh.
 """
 
 import argparse
@@ -32,6 +33,16 @@ from known_answers.solver import displacements, factors, quad_shape, stresses  #
 FORCE, YOUNG, DENSITY = 100.0, 210000.0, 7.85e-9
 BEAMS = ("i_beam_with_fillets", "h_beam", "ipe_200", "t_beam_with_fillets", "box_beam_with_fillets", "box_beam_rounded_outside",
          "square_tube", "round_tube", "channel_with_bends", "l_section", "z_section", "hat_section")
+# Solids that touch, as Gmsh makes them; the axis at whose low end they are held, and that at whose high end they are loaded.
+ASSEMBLIES = {
+    "lap": ("Box(1) = {0, 0, 0, 100, 40, 3}; Box(2) = {80, 0, 3, 100, 40, 3};", 0, 0),
+    "angle": ("Box(1) = {0, 0, 0, 120, 80, 3}; Box(2) = {60, 10, 3, 40, 60, 3}; Box(3) = {97, 10, 6, 3, 60, 80};", 0, 2),
+    "tube": ("Box(1) = {0, 0, 0, 120, 120, 3}; Cylinder(2) = {60, 60, 3, 0, 0, 100, 25}; Cylinder(3) = {60, 60, 3, 0, 0, 100, 22};"
+             "BooleanDifference{ Volume{2}; Delete; }{ Volume{3}; Delete; }", 0, 2),
+    "gusset": ("Box(1) = {0, 0, 0, 120, 60, 3}; Box(2) = {80, 0, 3, 3, 60, 80}; Wedge(3) = {0, 0, 0, 40, 40, 3, 0};"
+               "Rotate{ {1, 0, 0}, {0, 0, 0}, Pi/2 }{ Volume{3}; } Rotate{ {0, 0, 1}, {0, 0, 0}, Pi }{ Volume{3}; }"
+               "Translate{ 80, 28.5, 3 }{ Volume{3}; }", 0, 2),
+}
 MATERIAL = f"*MATERIAL, NAME=Material\n*ELASTIC\n{YOUNG}, 0.3\n*DENSITY\n{DENSITY}"
 
 
@@ -66,9 +77,10 @@ def thicknesses_of(text):
     return result
 
 
-def shell_mesh(folder, build, model, size=8, axis=2):
+def shell_mesh(folder, build, model, size=8, axis=2, options=()):
     """Meshes the middle surface. Returns the nodes, the text, the number of elements and the load shares of the tip's nodes."""
-    run(build / "quadrille", "mesh", model, "--thin", "--order", 2, "--size", size, "--quiet", "-o", folder / "shell.inp", folder=folder)
+    run(build / "quadrille", "mesh", model, "--thin", *options, "--order", 2, "--size", size, "--quiet", "-o", folder / "shell.inp",
+        folder=folder)
     text = (folder / "shell.inp").read_text()
     nodes, quads, thicknesses = nodes_of(text), quads_of(text), thicknesses_of(text)
     varying = "".join(re.findall(r"^\*NODAL THICKNESS\n((?:\d.*\n)+)", text, re.MULTILINE))
@@ -198,8 +210,19 @@ def tetrahedra(folder, model, size, axis):
     return nodes, text + "\n*SOLID SECTION, ELSET=Eall, MATERIAL=Material", len(elements), shares
 
 
+def compare(folder, name, shell, solid, hold, axis):
+    """Prints rows of the table of thin solids: tips along the axes across that of the load, and the lowest frequency."""
+    for push in sorted({0, 1, 2} - {axis}):
+        found = [solve(folder, kind, mesh, hold, push) for kind, mesh in (("shell", shell), ("solid", solid))]
+        (tip, table), (solid_tip, solid_table) = found
+        mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
+        print(f"| {name} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} "
+              f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} "
+              f"| {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
+
+
 def solids(folder, build, models, fine):
-    """Prints the table of thin solids: tips along both axes across the longest one, and the lowest frequency."""
+    """Prints the table of thin solids, and that of assemblies if there are no models."""
     print("| solid | S8R | C3D10 | load along | tip, shell (mm) | tip, solid (mm) | off by "
           "| first frequency, shell (Hz) | solid (Hz) | off by |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |")
@@ -209,15 +232,16 @@ def solids(folder, build, models, fine):
         low, high = (np.array(side.split(","), float) for side in box.groups())
         axis = int((high - low).argmax())
         shell = shell_mesh(folder, build, model.absolute(), np.linalg.norm(high - low) / 60, axis)
-        thinnest = min(thicknesses_of(shell[1]).values())
-        solid = tetrahedra(folder, model.absolute(), thinnest * fine, axis)
-        for push in sorted({0, 1, 2} - {axis}):
-            found = [solve(folder, kind, mesh, axis, push) for kind, mesh in (("shell", shell), ("solid", solid))]
-            (tip, table), (solid_tip, solid_table) = found
-            mode, solid_mode = factors(table, 3)[0], factors(solid_table, 3)[0]
-            print(f"| {model.stem} | {shell[2]} | {solid[2]} | {'xyz'[push]} | {tip:.5g} | {solid_tip:.5g} "
-                  f"| {100 * (tip / solid_tip - 1):+.2f} % | {mode:.5g} | {solid_mode:.5g} "
-                  f"| {100 * (mode / solid_mode - 1):+.2f} % |", flush=True)
+        solid = tetrahedra(folder, model.absolute(), min(thicknesses_of(shell[1]).values()) * fine, axis)
+        compare(folder, model.stem, shell, solid, axis, axis)
+    for name, (text, hold, axis) in {} if models else ASSEMBLIES.items():
+        (folder / "apart.geo").write_text(f'SetFactory("OpenCASCADE");\n{text}\n')
+        run("gmsh", "-0", "apart.geo", "-o", "apart.step", folder=folder)
+        fuse = "v() = Volume{:};\nBooleanUnion{ Volume{v(0)}; Delete; }{ Volume{v({1:#v()-1})}; Delete; }\n"
+        (folder / "fused.geo").write_text((folder / "apart.geo").read_text() + fuse)
+        shell = shell_mesh(folder, build, folder / "apart.step", 3, axis, ["--join"])
+        solid = tetrahedra(folder, folder / "fused.geo", min(thicknesses_of(shell[1]).values()) * fine, axis)
+        compare(folder, name, shell, solid, hold, axis)
 
 
 def bracket_mesh(folder, build, size, layers):
@@ -305,10 +329,11 @@ def main():
     parser.add_argument("--beams", nargs="*", metavar="NAME", choices=BEAMS)
     parser.add_argument("--bracket", action="store_true")
     parser.add_argument("--solids", nargs="+", type=pathlib.Path, metavar="FILE")
+    parser.add_argument("--assemblies", action="store_true")
     parser.add_argument("--fine", type=float, default=1, metavar="SHARE", help="size of the tetrahedra over the thinnest wall")
     parser.add_argument("--check", action="store_true", help="exit code 1 if a beam is off by more than allowed")
     arguments = parser.parse_args()
-    if (arguments.beams is not None or arguments.bracket or arguments.solids) and shutil.which("ccx") is None:
+    if (arguments.beams is not None or arguments.bracket or arguments.assemblies or arguments.solids) and shutil.which("ccx") is None:
         print("NOT TESTED: ccx is not installed")
         return
     with tempfile.TemporaryDirectory() as name:
@@ -316,8 +341,8 @@ def main():
         if arguments.bracket:
             bracket(folder, arguments.build)
             return
-        if arguments.solids:
-            solids(folder, arguments.build.absolute(), arguments.solids, arguments.fine)
+        if arguments.assemblies or arguments.solids:
+            solids(folder, arguments.build.absolute(), arguments.solids or [], arguments.fine)
             return
         run(arguments.build / "tests" / "write_models", folder, folder=folder)
         if arguments.beams is None:

@@ -34,7 +34,7 @@ values = {node.targets[0].id: node.value.value for node in tree.body if isinstan
 for text in values.values():
     print(f"QT_TRANSLATE_NOOP({'QuadrilleStatus'!r}, {text!r})")
 PYTHON
-  sources=(InitGui.py quadrille/{document,features,gui}/*.py "$marks")
+  sources=(InitGui.py quadrille/{core,document,solvers,features,gui}/*.py "$marks")
   for file in translations/*.ts; do pylupdate5 -noobsolete "${sources[@]}" -ts "$file"; done
   sed -i '/<location /d' translations/*.ts
 fi

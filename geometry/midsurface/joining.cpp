@@ -123,6 +123,11 @@ struct Contact {
   double loose = 0;          ///< length of the longest edge that it would leave open
 };
 
+gp_Pnt middle_of(const TopoDS_Shape& edge) {
+  const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
+  return curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+}
+
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
 /// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
 /// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
@@ -135,9 +140,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
   TopTools_DataMapOfShapeInteger off_skin;  // by edge
   const auto is_off_skin = [&](const TopoDS_Shape& edge, double thickness) {
     if (const int* known = off_skin.Seek(edge)) return *known != 0;
-    const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
-    const gp_Pnt middle = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-    const bool off = skin.faces_at(middle, 1e-3 * thickness).empty();
+    const bool off = skin.faces_at(middle_of(edge), 1e-3 * thickness).empty();
     off_skin.Bind(edge, off ? 1 : 0);
     return off;
   };
@@ -169,6 +172,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           const TopAbs_Orientation orientation = own_uses.front().orientation;
           if (strips_there > 1 || orientation == TopAbs_INTERNAL) continue;
           const bool off = is_off_skin(edge, walls[piece.wall].thickness);
+          if (off && piece.step && !skin.in_material(middle_of(edge))) return Contact();
           if (off || piece.step) loose.push_back(edge);
           if (!off)
             result.on_skin.push_back(fan_at(TopoDS::Edge(edge.Oriented(orientation)), piece.face, 0.5));

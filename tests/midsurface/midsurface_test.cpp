@@ -890,6 +890,12 @@ TEST(MidSurface, EndsRibsThatAreLowerThanTheirBoss) {
   }
 }
 
+/// The strips beside its foot end at its leg.
+TEST(MidSurface, EndsAnAngleOnAWiderPlate) {
+  expect_one_part(
+      fused({block({0, 0, 0}, 120, 80, 3), block({60, 10, 3}, 40, 60, 3), block({97, 10, 6}, 3, 60, 80)}));
+}
+
 TEST(MidSurface, EndsCapsAtTheRimOfAHat) {
   for (const double thickness : {2.0, 3.0}) {
     const double t = thickness;

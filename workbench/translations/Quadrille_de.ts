@@ -943,6 +943,170 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
         <translation>{}: mit Größe {:g} nicht zu vernetzen: sie muss über 0 sein</translation>
     </message>
+    <message>
+        <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
+        <translation>{}: seine {} Flächen brauchen mehr als {}, wenn Elemente nicht größer als ein Zehntel des Teils sind</translation>
+    </message>
+    <message>
+        <source>layers: {} of {} quads along it are the first of {} rows</source>
+        <translation>Schichten: {} von {} Vierecken daran sind die ersten von {} Reihen</translation>
+    </message>
+    <message>
+        <source>pair: {} has the same {} nodes</source>
+        <translation>Paar: {} hat dieselben {} Knoten</translation>
+    </message>
+    <message>
+        <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
+        <translation>{}: steht nicht auf der Liste dessen, was erhalten bleiben soll; die Tabelle sagt, warum der Vernetzer selbst eine Kante erhält</translation>
+    </message>
+    <message>
+        <source>the folder for temporary files</source>
+        <translation>der Ordner für temporäre Dateien</translation>
+    </message>
+    <message>
+        <source>{}: no temporary folder can be made there ({}); set the environment variable TMPDIR to a folder that can be written</source>
+        <translation>{}: dort kann kein temporärer Ordner angelegt werden ({}); die Umgebungsvariable TMPDIR auf einen beschreibbaren Ordner setzen</translation>
+    </message>
+    <message>
+        <source>flatpak-spawn: cannot run programs outside of Flatpak ({}); allow it with &apos;flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD&apos;</source>
+        <translation>flatpak-spawn: kann keine Programme außerhalb von Flatpak ausführen ({}); erlauben mit 'flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'</translation>
+    </message>
+    <message>
+        <source>the argument &apos;command&apos;</source>
+        <translation>das Argument 'command'</translation>
+    </message>
+    <message>
+        <source>the environment variable QUADRILLE_COMMAND</source>
+        <translation>die Umgebungsvariable QUADRILLE_COMMAND</translation>
+    </message>
+    <message>
+        <source>the preference &apos;Command&apos;</source>
+        <translation>die Einstellung 'Command'</translation>
+    </message>
+    <message>
+        <source>{}: cannot be run, though {} names it as the mesher</source>
+        <translation>{}: lässt sich nicht ausführen, obwohl es als Vernetzer angegeben ist ({})</translation>
+    </message>
+    <message>
+        <source>the command &apos;quadrille&apos; is not on PATH; install it, or name its path in the environment variable QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command</source>
+        <translation>der Befehl 'quadrille' ist nicht im PATH; ihn installieren oder seinen Pfad in der Umgebungsvariable QUADRILLE_COMMAND oder in der Einstellung Mod/Quadrille/Command angeben</translation>
+    </message>
+    <message>
+        <source>{}: does not print its version ({}); install Quadrille {}</source>
+        <translation>{}: gibt seine Version nicht aus ({}); Quadrille {} installieren</translation>
+    </message>
+    <message>
+        <source>{}: is not the quadrille command; install Quadrille {}, or correct the preference Mod/Quadrille/Command</source>
+        <translation>{}: ist nicht der Befehl quadrille; Quadrille {} installieren oder die Einstellung Mod/Quadrille/Command berichtigen</translation>
+    </message>
+    <message>
+        <source>{}: is of version {}, and this addon needs {}; install the two from one release</source>
+        <translation>{}: hat die Version {}, diese Erweiterung braucht {}; beide aus derselben Ausgabe installieren</translation>
+    </message>
+    <message>
+        <source>the work was cancelled</source>
+        <translation>die Arbeit wurde abgebrochen</translation>
+    </message>
+    <message>
+        <source>{}: cannot be started: {}</source>
+        <translation>{}: lässt sich nicht starten: {}</translation>
+    </message>
+    <message>
+        <source>the mesher was killed by signal {}</source>
+        <translation>der Vernetzer wurde durch das Signal {} beendet</translation>
+    </message>
+    <message>
+        <source>the meshing was cancelled</source>
+        <translation>das Vernetzen wurde abgebrochen</translation>
+    </message>
+    <message>
+        <source>the mesher ended with exit code {}</source>
+        <translation>der Vernetzer endete mit dem Code {}</translation>
+    </message>
+    <message>
+        <source>FreeCAD read {} of the {} quads that {} wrote</source>
+        <translation>FreeCAD hat {} der {} Vierecke gelesen, die {} geschrieben hat</translation>
+    </message>
+    <message>
+        <source>the shape has no faces to mesh</source>
+        <translation>die Form hat keine Flächen zum Vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: cannot be read ({})</source>
+        <translation>{}: lässt sich nicht lesen ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not the address of a file (https://.../quadrille-...tar.xz)</source>
+        <translation>{}: ist nicht die Adresse einer Datei (https://.../quadrille-...tar.xz)</translation>
+    </message>
+    <message>
+        <source>{}: was cancelled</source>
+        <translation>{}: wurde abgebrochen</translation>
+    </message>
+    <message>
+        <source>{}: ended after {} of {} bytes</source>
+        <translation>{}: endete nach {} von {} Byte</translation>
+    </message>
+    <message>
+        <source>{}: cannot be downloaded ({})</source>
+        <translation>{}: lässt sich nicht herunterladen ({})</translation>
+    </message>
+    <message>
+        <source>{}: is refused: {} would lie outside of its folder</source>
+        <translation>{}: wird abgelehnt: {} läge außerhalb des Ordners</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille</source>
+        <translation>{}: ist kein Paket von Quadrille</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written ({})</source>
+        <translation>{}: lässt sich nicht beschreiben ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille: it has no bin/quadrille</source>
+        <translation>{}: ist kein Paket von Quadrille: bin/quadrille fehlt darin</translation>
+    </message>
+    <message>
+        <source>{}: cannot be unpacked ({})</source>
+        <translation>{}: lässt sich nicht entpacken ({})</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of second order: set its order, and mesh again</source>
+        <translation>{}: das Element {} braucht ein Netz zweiter Ordnung: die Ordnung setzen und neu vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of first order: set its order, and mesh again</source>
+        <translation>{}: das Element {} braucht ein Netz erster Ordnung: die Ordnung setzen und neu vernetzen</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a part in the plane z = 0, and this one leaves it by {} mm: move or rotate it there</source>
+        <translation>{}: das Element {} braucht ein Teil in der Ebene z = 0, und dieses weicht um {} mm davon ab: es dorthin verschieben oder drehen</translation>
+    </message>
+    <message>
+        <source>{}: Element {} has the y axis as its axis of symmetry, and the part reaches to x = {} mm: move it to positive x</source>
+        <translation>{}: das Element {} hat die y-Achse als Symmetrieachse, und das Teil reicht bis x = {} mm: es zu positivem x verschieben</translation>
+    </message>
+    <message>
+        <source>elements are written as {} (its property Element)</source>
+        <translation>Elemente werden als {} geschrieben (Eigenschaft Element)</translation>
+    </message>
+    <message>
+        <source>shells are written as S8R, which is better than S8 where they are thin (its property ReducedShells)</source>
+        <translation>Schalen werden als S8R geschrieben, was bei dünnen besser ist als S8 (Eigenschaft ReducedShells)</translation>
+    </message>
+    <message>
+        <source>shells are written with the offset {} (its property ShellOffset)</source>
+        <translation>Schalen werden mit dem Versatz {} geschrieben (Eigenschaft ShellOffset)</translation>
+    </message>
+    <message>
+        <source>{}: shows stresses at the middle of the shell; those of bending are at its surfaces: set {} of {} to true, and solve again</source>
+        <translation>{}: zeigt die Spannungen in der Mitte der Schale; die aus Biegung treten an ihren Oberflächen auf: {} von {} auf wahr setzen und erneut lösen</translation>
+    </message>
+    <message>
+        <source>the search for the middle surface was cancelled</source>
+        <translation>die Suche nach der Mittelfläche wurde abgebrochen</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>

@@ -813,7 +813,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: {} is no longer on its surface</source>
-        <translation>{} : {} n&apos;est plus sur sa surface</translation>
+        <translation>{} : {} n'est plus sur sa surface</translation>
     </message>
     <message>
         <source>{}: {}; until then, pick its faces, edges and vertices on the part</source>
@@ -837,7 +837,7 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: the part has no such face to flip</source>
-        <translation>{} : la pièce n&apos;a pas cette face à inverser</translation>
+        <translation>{} : la pièce n'a pas cette face à inverser</translation>
     </message>
     <message>
         <source>the normals cannot be flipped: the part has edges or vertices that belong to no face</source>
@@ -845,23 +845,23 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}.{}: is not in the meshed part</source>
-        <translation>{}.{} : n&apos;est pas dans la pièce maillée</translation>
+        <translation>{}.{} : n'est pas dans la pièce maillée</translation>
     </message>
     <message>
         <source>Solid{}: is not in the meshed part</source>
-        <translation>Solid{} : n&apos;est pas dans la pièce maillée</translation>
+        <translation>Solid{} : n'est pas dans la pièce maillée</translation>
     </message>
     <message>
         <source>{}: the part that it meshes is gone</source>
-        <translation>{} : la pièce maillée n&apos;existe plus</translation>
+        <translation>{} : la pièce maillée n'existe plus</translation>
     </message>
     <message>
         <source>{}: has no shape to mesh</source>
-        <translation>{} : n&apos;a pas de forme à mailler</translation>
+        <translation>{} : n'a pas de forme à mailler</translation>
     </message>
     <message>
         <source>{}: its shape has no faces to mesh</source>
-        <translation>{} : sa forme n&apos;a pas de faces à mailler</translation>
+        <translation>{} : sa forme n'a pas de faces à mailler</translation>
     </message>
     <message>
         <source>{}: a mesh region needs a length larger than 0</source>
@@ -873,15 +873,15 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: its SizeField is set, which the sizes from results would replace: clear it first</source>
-        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l&apos;effacer d&apos;abord</translation>
+        <translation>{} : SizeField est défini, et les tailles tirées des résultats le remplaceraient : l'effacer d'abord</translation>
     </message>
     <message>
         <source>{}: is not in an analysis: add it to one, and solve that first</source>
-        <translation>{} : n&apos;est dans aucune analyse : l&apos;ajouter à une analyse, et la résoudre d&apos;abord</translation>
+        <translation>{} : n'est dans aucune analyse : l'ajouter à une analyse, et la résoudre d'abord</translation>
     </message>
     <message>
         <source>{}: has no result with displacements: solve it with {} first</source>
-        <translation>{} : n&apos;a pas de résultat avec déplacements : résoudre d&apos;abord avec {}</translation>
+        <translation>{} : n'a pas de résultat avec déplacements : résoudre d'abord avec {}</translation>
     </message>
     <message>
         <source>{}: its nodes are displaced: set DisplaceMesh of {} to false, and solve again</source>
@@ -889,27 +889,27 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: has results at the middle of the shell only: set {} of {} to true, and solve again</source>
-        <translation>{} : n&apos;a de résultats qu&apos;au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
+        <translation>{} : n'a de résultats qu'au milieu de la coque : mettre {} de {} à true, et résoudre de nouveau</translation>
     </message>
     <message>
         <source>{}: has no shell elements: an element has {} nodes</source>
-        <translation>{} : n&apos;a pas d&apos;éléments coques : un élément a {} nœuds</translation>
+        <translation>{} : n'a pas d'éléments coques : un élément a {} nœuds</translation>
     </message>
     <message>
         <source>{}: has no displacements: solve again</source>
-        <translation>{} : n&apos;a pas de déplacements : résoudre de nouveau</translation>
+        <translation>{} : n'a pas de déplacements : résoudre de nouveau</translation>
     </message>
     <message>
         <source>{}: is being meshed already; wait for it, or cancel it first</source>
-        <translation>{} : est déjà en cours de maillage ; attendre, ou l&apos;annuler d&apos;abord</translation>
+        <translation>{} : est déjà en cours de maillage ; attendre, ou l'annuler d'abord</translation>
     </message>
     <message>
         <source>{}: has no face {} to flip</source>
-        <translation>{} : n&apos;a pas de face {} à inverser</translation>
+        <translation>{} : n'a pas de face {} à inverser</translation>
     </message>
     <message>
         <source>{}: {}; nothing was exported</source>
-        <translation>{} : {} ; rien n&apos;a été exporté</translation>
+        <translation>{} : {} ; rien n'a été exporté</translation>
     </message>
     <message>
         <source>{}: the mesher now gives another mesh (its version has changed, or the part was recomputed and differs by rounding): mesh again, then export</source>
@@ -921,27 +921,191 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     </message>
     <message>
         <source>{}: is not a FEM analysis</source>
-        <translation>{} : n&apos;est pas une analyse FEM</translation>
+        <translation>{} : n'est pas une analyse FEM</translation>
     </message>
     <message>
         <source>{}: already holds the mesh {}, and FreeCAD solves with one mesh only</source>
-        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu&apos;avec un seul</translation>
+        <translation>{} : contient déjà le maillage {}, et FreeCAD ne résout qu'avec un seul</translation>
     </message>
     <message>
         <source>{}: has no solid; a middle surface is made of solids</source>
-        <translation>{} : n&apos;a pas de solide ; une surface moyenne se fait à partir de solides</translation>
+        <translation>{} : n'a pas de solide ; une surface moyenne se fait à partir de solides</translation>
     </message>
     <message>
         <source>{}: is not a mesh object; select one, such as an STL file that was imported</source>
-        <translation>{} : n&apos;est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
+        <translation>{} : n'est pas un objet maillage ; en sélectionner un, comme un fichier STL importé</translation>
     </message>
     <message>
         <source>{}: has no triangles to mesh</source>
-        <translation>{} : n&apos;a pas de triangles à mailler</translation>
+        <translation>{} : n'a pas de triangles à mailler</translation>
     </message>
     <message>
         <source>{}: cannot be meshed at size {:g}: it must be larger than 0</source>
         <translation>{} : ne peut être maillé à la taille {:g} : elle doit être supérieure à 0</translation>
+    </message>
+    <message>
+        <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
+        <translation>{} : ses {} faces en demandent plus de {}, sauf si les éléments dépassent un dixième de la pièce</translation>
+    </message>
+    <message>
+        <source>layers: {} of {} quads along it are the first of {} rows</source>
+        <translation>couches : {} des {} quadrangles le long sont les premiers de {} rangées</translation>
+    </message>
+    <message>
+        <source>pair: {} has the same {} nodes</source>
+        <translation>paire : {} a les mêmes {} nœuds</translation>
+    </message>
+    <message>
+        <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
+        <translation>{} : ne figure pas dans la liste de ce qui est à garder ; le tableau dit pourquoi le mailleur garde lui-même une arête</translation>
+    </message>
+    <message>
+        <source>the folder for temporary files</source>
+        <translation>le dossier des fichiers temporaires</translation>
+    </message>
+    <message>
+        <source>{}: no temporary folder can be made there ({}); set the environment variable TMPDIR to a folder that can be written</source>
+        <translation>{} : impossible d’y créer un dossier temporaire ({}) ; donner à la variable d’environnement TMPDIR un dossier accessible en écriture</translation>
+    </message>
+    <message>
+        <source>flatpak-spawn: cannot run programs outside of Flatpak ({}); allow it with &apos;flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD&apos;</source>
+        <translation>flatpak-spawn : impossible de lancer des programmes hors de Flatpak ({}) ; l’autoriser par 'flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'</translation>
+    </message>
+    <message>
+        <source>the argument &apos;command&apos;</source>
+        <translation>l’argument 'command'</translation>
+    </message>
+    <message>
+        <source>the environment variable QUADRILLE_COMMAND</source>
+        <translation>la variable d’environnement QUADRILLE_COMMAND</translation>
+    </message>
+    <message>
+        <source>the preference &apos;Command&apos;</source>
+        <translation>la préférence 'Command'</translation>
+    </message>
+    <message>
+        <source>{}: cannot be run, though {} names it as the mesher</source>
+        <translation>{} : ne peut pas être exécuté, bien que {} le désigne comme mailleur</translation>
+    </message>
+    <message>
+        <source>the command &apos;quadrille&apos; is not on PATH; install it, or name its path in the environment variable QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command</source>
+        <translation>la commande 'quadrille' n’est pas dans PATH ; l’installer, ou donner son chemin dans la variable d’environnement QUADRILLE_COMMAND ou dans la préférence Mod/Quadrille/Command</translation>
+    </message>
+    <message>
+        <source>{}: does not print its version ({}); install Quadrille {}</source>
+        <translation>{} : n’affiche pas sa version ({}) ; installer Quadrille {}</translation>
+    </message>
+    <message>
+        <source>{}: is not the quadrille command; install Quadrille {}, or correct the preference Mod/Quadrille/Command</source>
+        <translation>{} : n’est pas la commande quadrille ; installer Quadrille {}, ou corriger la préférence Mod/Quadrille/Command</translation>
+    </message>
+    <message>
+        <source>{}: is of version {}, and this addon needs {}; install the two from one release</source>
+        <translation>{} : est de version {}, et cette extension demande {} ; installer les deux de la même version</translation>
+    </message>
+    <message>
+        <source>the work was cancelled</source>
+        <translation>le travail a été annulé</translation>
+    </message>
+    <message>
+        <source>{}: cannot be started: {}</source>
+        <translation>{} : ne peut pas être lancé : {}</translation>
+    </message>
+    <message>
+        <source>the mesher was killed by signal {}</source>
+        <translation>le mailleur a été tué par le signal {}</translation>
+    </message>
+    <message>
+        <source>the meshing was cancelled</source>
+        <translation>le maillage a été annulé</translation>
+    </message>
+    <message>
+        <source>the mesher ended with exit code {}</source>
+        <translation>le mailleur s’est terminé avec le code {}</translation>
+    </message>
+    <message>
+        <source>FreeCAD read {} of the {} quads that {} wrote</source>
+        <translation>FreeCAD a lu {} des {} quadrangles écrits par {}</translation>
+    </message>
+    <message>
+        <source>the shape has no faces to mesh</source>
+        <translation>la forme n’a pas de faces à mailler</translation>
+    </message>
+    <message>
+        <source>{}: cannot be read ({})</source>
+        <translation>{} : ne peut pas être lu ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not the address of a file (https://.../quadrille-...tar.xz)</source>
+        <translation>{} : n’est pas l’adresse d’un fichier (https://.../quadrille-...tar.xz)</translation>
+    </message>
+    <message>
+        <source>{}: was cancelled</source>
+        <translation>{} : annulé</translation>
+    </message>
+    <message>
+        <source>{}: ended after {} of {} bytes</source>
+        <translation>{} : s’est arrêté après {} octets sur {}</translation>
+    </message>
+    <message>
+        <source>{}: cannot be downloaded ({})</source>
+        <translation>{} : ne peut pas être téléchargé ({})</translation>
+    </message>
+    <message>
+        <source>{}: is refused: {} would lie outside of its folder</source>
+        <translation>{} : refusé : {} se trouverait hors de son dossier</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille</source>
+        <translation>{} : n’est pas un paquet de Quadrille</translation>
+    </message>
+    <message>
+        <source>{}: cannot be written ({})</source>
+        <translation>{} : ne peut pas être écrit ({})</translation>
+    </message>
+    <message>
+        <source>{}: is not a bundle of Quadrille: it has no bin/quadrille</source>
+        <translation>{} : n’est pas un paquet de Quadrille : il n’a pas de bin/quadrille</translation>
+    </message>
+    <message>
+        <source>{}: cannot be unpacked ({})</source>
+        <translation>{} : ne peut pas être décompressé ({})</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of second order: set its order, and mesh again</source>
+        <translation>{} : l’élément {} demande un maillage du second ordre : régler son ordre et mailler à nouveau</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a mesh of first order: set its order, and mesh again</source>
+        <translation>{} : l’élément {} demande un maillage du premier ordre : régler son ordre et mailler à nouveau</translation>
+    </message>
+    <message>
+        <source>{}: Element {} needs a part in the plane z = 0, and this one leaves it by {} mm: move or rotate it there</source>
+        <translation>{} : l’élément {} demande une pièce dans le plan z = 0, et celle-ci s’en écarte de {} mm : l’y déplacer ou l’y tourner</translation>
+    </message>
+    <message>
+        <source>{}: Element {} has the y axis as its axis of symmetry, and the part reaches to x = {} mm: move it to positive x</source>
+        <translation>{} : l’élément {} a l’axe y pour axe de symétrie, et la pièce va jusqu’à x = {} mm : la déplacer vers les x positifs</translation>
+    </message>
+    <message>
+        <source>elements are written as {} (its property Element)</source>
+        <translation>les éléments sont écrits comme {} (sa propriété Element)</translation>
+    </message>
+    <message>
+        <source>shells are written as S8R, which is better than S8 where they are thin (its property ReducedShells)</source>
+        <translation>les coques sont écrites comme S8R, mieux que S8 là où elles sont minces (sa propriété ReducedShells)</translation>
+    </message>
+    <message>
+        <source>shells are written with the offset {} (its property ShellOffset)</source>
+        <translation>les coques sont écrites avec le décalage {} (sa propriété ShellOffset)</translation>
+    </message>
+    <message>
+        <source>{}: shows stresses at the middle of the shell; those of bending are at its surfaces: set {} of {} to true, and solve again</source>
+        <translation>{} : montre les contraintes au milieu de la coque ; celles de flexion sont à ses surfaces : mettre {} de {} à vrai et résoudre à nouveau</translation>
+    </message>
+    <message>
+        <source>the search for the middle surface was cancelled</source>
+        <translation>la recherche de la surface moyenne a été annulée</translation>
     </message>
 </context>
 <context>

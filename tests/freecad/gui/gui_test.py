@@ -19,6 +19,7 @@ import ObjectsFem
 import Part
 from PySide import QtCore, QtGui
 
+import hand
 import quadrille.core.quality
 import quadrille.freecad
 from quadrille.gui import background
@@ -42,8 +43,33 @@ def fem_entries():
     return menus, bars
 
 
+def shortcut_works():
+    """Whether the menu in FEM shows each command's shortcut, and Q, M opens the panel of a selected part."""
+    FreeCADGui.activateWorkbench("FemWorkbench")
+    entries = window().menuBar().actions()  # they own their menus
+    shown = {action.text(): action.shortcut().toString() for entry in entries if entry.menu() is not None and entry.isVisible()
+             for action in entry.menu().actions()}
+    named = all(shown[command.text] == command.accelerator for command in commands.COMMANDS.values())
+    document = FreeCAD.newDocument("Keys")
+    FreeCADGui.Selection.addSelection(document.addObject("Part::Box", "Box"))
+    document.recompute()
+    window().activateWindow()
+    window().setFocus()
+    process(0.7)  # buttons are enabled by a timer
+    hand.type_text("qm")
+    for _ in range(40):
+        process(0.5)
+        opened = bool(FreeCADGui.Control.activeDialog())
+        if opened:
+            break
+    FreeCADGui.Control.closeDialog()
+    process(0.2)
+    FreeCAD.closeDocument(document.Name)
+    return named, opened
+
+
 #: Before the addon's own workbench was ever chosen.
-AT_THE_START = fem_entries()
+AT_THE_START = fem_entries(), shortcut_works()
 
 
 class GuiTest(GuiCase):
@@ -243,8 +269,9 @@ class GuiTest(GuiCase):
     # In the FEM workbench
 
     def test_fem_has_the_commands_from_the_start(self):
-        self.assertEqual(AT_THE_START, (["Mesh"], ["QuadrilleInFem"]))
-        self.assertEqual(fem_entries(), (["Mesh"], ["QuadrilleInFem"]))
+        entries, keys = (["Mesh"], ["QuadrilleInFem"]), (True, True)
+        self.assertEqual(AT_THE_START, (entries, keys))
+        self.assertEqual((fem_entries(), shortcut_works()), (entries, keys))  # where FreeCAD has made its own actions
         box = self.box()
         FreeCADGui.Selection.addSelection(box)
         bar = window().findChild(QtGui.QToolBar, "QuadrilleInFem")

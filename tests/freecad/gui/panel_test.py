@@ -29,7 +29,7 @@ from quadrille.document import findings, links, state
 from quadrille.document.state import is_quad_mesh
 from quadrille.features import mesh_object as core
 from quadrille.features import sizes
-from quadrille.gui import background, commands, findings_table, overlays, preferences
+from quadrille.gui import background, commands, drawn_icon, findings_table, overlays, preferences
 from quadrille.gui.task_panel import MeshPanel
 
 CANCEL = QtGui.QDialogButtonBox.Cancel
@@ -336,6 +336,30 @@ class PanelTest(GuiCase):
         self.assertEqual(mesh.Keep, [gone[0]])
         self.document.undo()
         self.assertEqual(mesh.Keep, [short, gone[0]])
+        close_panel()
+
+    def test_layers_and_pairs_say_what_they_did(self):
+        part = self.document.addObject("Part::Feature", "Plate")
+        part.Shape = Part.makeBox(20, 20, 2).cut(Part.makeCylinder(4, 2, FreeCAD.Vector(10, 10, 0)))
+        rim = next(f"Edge{k}" for k, edge in enumerate(part.Shape.Edges, 1) if isinstance(edge.Curve, Part.Circle))
+        self.show()
+        mesh = quadrille.freecad.mesh_object(part, size=1.5, layers={rim: (0.2, 1.3, 4)}, match={"Face1": "Face4"})
+        self.edit(mesh)
+        # There is room for four rows on the plate, and none on the wall of the hole, which is a grid.
+        told, around = self.found(), mesh.FemMesh
+        segments = sum(len(around.getGroupElements(k)) for k in around.Groups if around.getGroupName(k) == rim)
+        self.assertEqual(told[rim][0], f"layers: {segments} of {2 * segments} quads along it are the first of 4 rows")
+        nodes = {node for k in around.Groups if around.getGroupName(k) == "Face4" for quad in around.getGroupElements(k)
+                 for node in around.getElementNodes(quad)}
+        self.assertEqual(told["Face1 (+1)"][0], f"pair: Face4 has the same {len(nodes)} nodes")
+        self.click_finding("Face1 (+1)")
+        self.assertEqual(self.selected(), ["Face1", "Face4"])
+        self.assertTrue(overlays.is_shown(mesh, overlays.MARKS))
+        picture("pair")
+        # What is not on the list of those to keep cannot be taken off it.
+        find("QuadrilleSuppress").click()
+        self.assertIn("Face1, Face4: not on the list", window().statusBar().currentMessage())
+        self.assertEqual(find("QuadrilleStatus").text(), state.UP_TO_DATE)
         close_panel()
 
     def test_long_lists_of_findings_are_cut(self):
@@ -1090,6 +1114,26 @@ class PanelTest(GuiCase):
                     FreeCADGui.setLocale("English")
                     process(0.2)
 
+    def test_errors_are_in_the_language(self):
+        for language, stopped, refused in (("German", "das Vernetzen wurde abgebrochen", "lässt sich nicht ausführen"),
+                                           ("French", "le maillage a été annulé", "ne peut pas être exécuté")):
+            with self.subTest(language=language):
+                self.addCleanup(FreeCADGui.setLocale, "English")
+                self.open_panel(self.bracket())
+                FreeCADGui.setLocale(language)
+                type_into("QuadrilleSize", "0,4 mm")
+                find("QuadrilleMesh").click()
+                find("QuadrilleStop").click()
+                wait_for(lambda: find("QuadrilleMesh").isEnabled(), what="the end")
+                self.assertIn(stopped, find("QuadrilleLog").toPlainText())
+                with mock.patch.dict(os.environ, QUADRILLE_COMMAND="/nowhere/quadrille"), Boxes() as boxes:
+                    find("QuadrilleMesh").click()
+                    process(0.3)
+                self.assertEqual(len(boxes.texts), 1)
+                self.assertIn(refused, boxes.texts[0])
+                close_panel(CANCEL)
+                FreeCADGui.setLocale("English")
+
     def test_languages_are_complete(self):
         folder = Path(quadrille.freecad.__file__).resolve().parents[1] / "translations"
         files = sorted(folder.glob("*.ts"))
@@ -1105,7 +1149,7 @@ class PanelTest(GuiCase):
                     self.assertEqual(source.count("{}"), translation.text.count("{}"), source)
                     self.assertEqual(compiled.translate(context.find("name").text, source), translation.text,
                                      f"{file.name} has changed: scripts/translations.sh compiles it")
-        for room in ("document", "features", "gui"):
+        for room in ("core", "document", "solvers", "features", "gui"):
             for source in (folder.parent / "quadrille" / room).glob("*.py"):
                 self.assertNotRegex(source.read_text(encoding="utf-8"), r'[ (]Error\(\s*f?"', f"{source}: translate errors")
         marked = {message.find("source").text for message in ElementTree.parse(files[0]).getroot().iter("message")}
@@ -1127,6 +1171,17 @@ class PanelTest(GuiCase):
             self.assertTrue(info["statusTip"], name)
             self.assertEqual(shortcuts[info["shortcut"]], [name])
         self.assertEqual(len(icons), len(commands.COMMANDS))
+
+    def test_icons_differ_without_color(self):
+        def gray(name):
+            picture = drawn_icon(commands.COMMANDS[name].pixmap).pixmap(24, 24).toImage()
+            return np.array([[QtGui.qGray(picture.pixel(x, y)) * QtGui.qAlpha(picture.pixel(x, y)) / 255 for x in range(24)]
+                             for y in range(24)])
+
+        names = sorted(commands.COMMANDS)
+        pictures = {name: gray(name) for name in names}
+        apart = {(one, other): np.abs(pictures[one] - pictures[other]).mean() for one in names for other in names if one < other}
+        self.assertGreater(min(apart.values()), 7, min(apart, key=apart.get))
 
     # Figures
 
@@ -1154,6 +1209,28 @@ class PanelTest(GuiCase):
         mesh = next(obj for obj in self.document.Objects if is_quad_mesh(obj))
         self.assertEqual(mesh.Size.Value, suggested)
         close_panel()
+
+    def test_a_number_that_cannot_be_reached_is_told(self):
+        wanted = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Quadrille")
+        wanted.SetInt("Elements", 100)
+        self.addCleanup(wanted.RemInt, "Elements")
+        mesh = self.open_panel(self.box())
+        label = find("QuadrilleEstimate")
+        told = label.text()
+        self.assertRegex(told, r"^about \d+ quads: its 6 faces need more than 100, unless elements are larger than a tenth of the part$")
+        self.press_mesh()
+        self.assertLess(abs(int(told.split()[1]) / mesh.QuadCount - 1), 0.25)
+        type_into("QuadrilleSize", "5 mm")
+        wait_for(lambda: not label.text().endswith("..."), what="the count")
+        self.assertEqual(label.text(), "about 24 quads")
+        find("QuadrilleSuggest").click()
+        wait_for(lambda: not label.text().endswith("..."), what="the size")
+        self.assertEqual(label.text(), told)
+        wanted.SetInt("Elements", 1000)
+        find("QuadrilleSuggest").click()
+        wait_for(lambda: not label.text().endswith("..."), what="the size")
+        self.assertRegex(label.text(), r"^about \d[ \d]+ quads$")
+        close_panel(CANCEL)
 
     def test_four_clicks_and_a_quick_panel(self):
         """The part, the command, Mesh, OK: four clicks. The panel of a part of 700 faces opens before its quads are counted."""

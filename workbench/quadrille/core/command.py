@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 from typing import IO, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
-from .errors import Error
+from .errors import QT_TRANSLATE_NOOP, Error, translate
 from .setting_table import MeshSettings
 from .system import program, scratch_prefix, start_options
 
@@ -45,7 +45,7 @@ def on_host(arguments: Sequence[str]) -> List[str]:
 
 def scratch_folder() -> "tempfile.TemporaryDirectory":
     """A temporary folder that the command can see too. It is removed when this process ends, even if it is killed."""
-    place = "the folder for temporary files"
+    place = translate("Quadrille", "the folder for temporary files")
     try:
         place = tempfile.gettempdir()
         if FLATPAK_INFO.exists():
@@ -54,8 +54,8 @@ def scratch_folder() -> "tempfile.TemporaryDirectory":
             os.makedirs(place, exist_ok=True)
         return tempfile.TemporaryDirectory(prefix=scratch_prefix(place, child_environment()), dir=place)
     except OSError as error:
-        raise Error(f"{place}: no temporary folder can be made there ({error.strerror}); set the environment variable TMPDIR to "
-                    "a folder that can be written", "failure", place) from error
+        raise Error(translate("Quadrille", "{}: no temporary folder can be made there ({}); set the environment variable TMPDIR to a "
+                              "folder that can be written").format(place, error.strerror), "failure", place) from error
 
 
 def which(path: str) -> Optional[str]:
@@ -67,8 +67,8 @@ def which(path: str) -> Optional[str]:
         answer = subprocess.run(on_host(["sh", "-c", 'command -v "$1"', "sh", path]), stdin=subprocess.DEVNULL,
                                 capture_output=True, text=True, errors="replace", timeout=30, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise Error(f"flatpak-spawn: cannot run programs outside of Flatpak ({error}); allow it with "
-                    "'flatpak override --user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'", "failure",
+        raise Error(translate("Quadrille", "flatpak-spawn: cannot run programs outside of Flatpak ({}); allow it with 'flatpak override "
+                              "--user --talk-name=org.freedesktop.Flatpak org.freecad.FreeCAD'").format(error), "failure",
                     "flatpak-spawn") from error
     return answer.stdout.strip() or None if answer.returncode == 0 else None
 
@@ -96,14 +96,14 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
     first three names a path that cannot be run, that is an error: nothing else is tried.
     """
     for path, origin in (
-        (command, "the argument 'command'"),
-        (os.environ.get("QUADRILLE_COMMAND"), "the environment variable QUADRILLE_COMMAND"),
-        (preference, "the preference 'Command'"),
+        (command, translate("Quadrille", "the argument 'command'")),
+        (os.environ.get("QUADRILLE_COMMAND"), translate("Quadrille", "the environment variable QUADRILLE_COMMAND")),
+        (preference, translate("Quadrille", "the preference 'Command'")),
     ):
         if path:
             found = which(path)
             if not found:
-                raise Error(f"{path}: cannot be run, though {origin} names it as the mesher", "usage", path)
+                raise Error(translate("Quadrille", "{}: cannot be run, though {} names it as the mesher").format(path, origin), "usage", path)
             return found
     here = Path(__file__).absolute().parent.parent  # the package
     found = _own(here) or which("quadrille")
@@ -119,12 +119,8 @@ def find_command(command: Optional[str] = None, preference: Optional[str] = None
         found = which(str(folder / "quadrille"))
         if found:
             return found
-    raise Error(
-        "the command 'quadrille' is not on PATH; install it, or name its path in the environment variable "
-        "QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command",
-        "failure",
-        "quadrille",
-    )
+    raise Error(translate("Quadrille", "the command 'quadrille' is not on PATH; install it, or name its path in the environment variable "
+                          "QUADRILLE_COMMAND or in the preference Mod/Quadrille/Command"), "failure", "quadrille")
 
 
 #: The version of this package; the command must have the same major and minor version.
@@ -142,15 +138,15 @@ def check_version(path: str) -> None:
                                 encoding="utf-8", errors="replace", timeout=30, env=child_environment(), check=False,
                                 **start_options())
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise Error(f"{path}: does not print its version ({error}); install Quadrille {VERSION}", "failure",
-                    path) from error
+        raise Error(translate("Quadrille", "{}: does not print its version ({}); install Quadrille {}").format(path, error, VERSION),
+                    "failure", path) from error
     match = re.search(r"(\d+)\.(\d+)\.(\d+)", answer.stdout)
     if answer.returncode != 0 or not match:
-        raise Error(f"{path}: is not the quadrille command; install Quadrille {VERSION}, or correct the preference "
-                    "Mod/Quadrille/Command", "failure", path)
+        raise Error(translate("Quadrille", "{}: is not the quadrille command; install Quadrille {}, or correct the preference "
+                              "Mod/Quadrille/Command").format(path, VERSION), "failure", path)
     if match.group(1, 2) != tuple(VERSION.split(".")[:2]):
-        raise Error(f"{path}: is of version {match.group()}, and this addon needs {VERSION}; install the two from one "
-                    "release", "failure", path)
+        raise Error(translate("Quadrille", "{}: is of version {}, and this addon needs {}; install the two from one release").format(
+            path, match.group(), VERSION), "failure", path)
     _checked[path] = modified
 
 
@@ -238,7 +234,7 @@ def _given_to_standby(arguments: Sequence[str]) -> Optional[_Child]:
 class CommandJob:
     """One run of a subcommand that writes a report. Call start(), then either wait() or, from a timer, poll()."""
 
-    _work = "the work"  #: what messages call it when it was cancelled
+    _cancelled_sentence = QT_TRANSLATE_NOOP("Quadrille", "the work was cancelled")
     _report_option = "--report"  #: the option that takes the file of the report
     _stands_by = False  #: whether the standby process may do such jobs
 
@@ -260,7 +256,7 @@ class CommandJob:
         try:
             self._process = self._stands_by and _given_to_standby(self._arguments) or _Child(self._arguments)
         except OSError as error:
-            raise Error(f"{self._arguments[0]}: cannot be started: {error.strerror}", "failure",
+            raise Error(translate("Quadrille", "{}: cannot be started: {}").format(self._arguments[0], error.strerror), "failure",
                         self._arguments[0]) from error
         self._reader = threading.Thread(target=self._read, args=(self._process.stderr,), daemon=True)
         self._reader.start()
@@ -347,7 +343,7 @@ class CommandJob:
         self.poll()
         try:
             if self._cancelled:
-                raise Error(f"{self._work} was cancelled", "cancelled")
+                raise Error(translate("Quadrille", self._cancelled_sentence), "cancelled")
             if code != 0:
                 raise self._error(code)
             with open(self._report, encoding="utf-8") as file:
@@ -365,14 +361,15 @@ class CommandJob:
 
     def _error(self, code: int) -> Error:
         if code < 0:
-            return Error(f"the mesher was killed by signal {-code}", _KINDS.get(code, "failure"), self._arguments[0])
+            return Error(translate("Quadrille", "the mesher was killed by signal {}").format(-code), _KINDS.get(code, "failure"),
+                         self._arguments[0])
         return Error(sentence_of(self.messages, code), _KINDS.get(code, "failure"))
 
 
 class MeshJob(CommandJob):
     """One run of `quadrille mesh`, or of another command that makes a mesh."""
 
-    _work = "the meshing"
+    _cancelled_sentence = QT_TRANSLATE_NOOP("Quadrille", "the meshing was cancelled")
     _stands_by = True
 
     def __init__(
@@ -397,7 +394,7 @@ class MeshJob(CommandJob):
 def sentence_of(lines: List[str], code: int) -> str:
     """The last line that the command wrote to stderr, without its name; if there is none, a sentence with the exit code."""
     prefix = "quadrille: "
-    sentence = lines[-1] if lines else f"the mesher ended with exit code {code}"
+    sentence = lines[-1] if lines else translate("Quadrille", "the mesher ended with exit code {}").format(code)
     return sentence[len(prefix):] if sentence.startswith(prefix) else sentence
 
 

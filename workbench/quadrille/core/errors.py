@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The one exception type, and text that is safe to print."""
+"""The one exception type, the translation of sentences, and text that is safe to print."""
+
+import sys
 
 
 class Error(RuntimeError):
@@ -15,6 +17,17 @@ class Error(RuntimeError):
         super().__init__(sentence)
         self.kind = kind
         self.subject = subject
+
+
+def QT_TRANSLATE_NOOP(_context: str, text: str) -> str:  # Qt's tools look for this name
+    """Marks a text for translation and returns it unchanged."""
+    return text
+
+
+def translate(context: str, text: str) -> str:
+    """The text in FreeCAD's language; unchanged where no FreeCAD runs."""
+    qt = getattr(sys.modules.get("FreeCAD"), "Qt", None)
+    return text if qt is None else str(qt.translate(context, text))
 
 
 def printable(text: str) -> str:

@@ -12,7 +12,7 @@ import Fem
 
 from . import command as child
 from .command import MeshJob, Progress, check_version, find_command, scratch_folder
-from .errors import Error
+from .errors import Error, translate
 from .setting_table import MeshSettings, in_words_of_panel, subject_of
 
 PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Quadrille"
@@ -101,8 +101,8 @@ class FemJob:
         # FreeCAD's reader returns an empty mesh if it does not understand a file.
         wanted = report.get("counts", {}).get("quads", 0)
         if fem_mesh.FaceCount != wanted or not wanted:
-            raise Error(f"FreeCAD read {fem_mesh.FaceCount} of the {wanted} quads that {self._command} wrote",
-                        "failure", self._command)
+            raise Error(translate("Quadrille", "FreeCAD read {} of the {} quads that {} wrote").format(
+                fem_mesh.FaceCount, wanted, self._command), "failure", self._command)
         if "imprinted" in report:
             _with_names_of_the_part(fem_mesh, report["imprinted"])
         return fem_mesh, report
@@ -126,7 +126,7 @@ class ShapeJob(FemJob):
         brep: Optional[bytes] = None,
     ) -> None:
         if shape.isNull() or not shape.Faces:
-            raise Error("the shape has no faces to mesh", "usage")
+            raise Error(translate("Quadrille", "the shape has no faces to mesh"), "usage")
         command = find_mesher(command)
         folder = scratch_folder()
         model, output = (os.path.join(folder.name, name) for name in ("shape.brep", "mesh.unv"))
@@ -158,7 +158,7 @@ def in_own_words(sentence: str) -> str:
     """A sentence of the command with the panel's words, in the language of the panel, instead of options."""
     if not FreeCAD.GuiUp:
         return in_words_of_panel(sentence)
-    return in_words_of_panel(sentence, lambda label: FreeCAD.Qt.translate("QuadrilleSettings", label))
+    return in_words_of_panel(sentence, lambda label: translate("QuadrilleSettings", label))
 
 
 def error_in_own_words(error: Error) -> Error:

@@ -22,7 +22,7 @@ from typing import Any, Callable, Dict, Optional, Union
 from urllib.parse import urlsplit
 
 from .command import check_version
-from .errors import Error
+from .errors import Error, translate
 
 #: Called with the fraction done, in [0, 1]; returning False cancels.
 Progress = Callable[[float], Optional[bool]]
@@ -40,7 +40,7 @@ def checksum(path: Union[str, Path]) -> str:
             for chunk in iter(lambda: file.read(_CHUNK), b""):
                 digest.update(chunk)
     except OSError as error:
-        raise Error(f"{path}: cannot be read ({error.strerror})", "failure", str(path)) from error
+        raise Error(translate("Quadrille", "{}: cannot be read ({})").format(path, error.strerror), "failure", str(path)) from error
     return digest.hexdigest()
 
 
@@ -49,7 +49,8 @@ def download(address: str, folder: Union[str, Path], progress: Optional[Progress
     parts = urlsplit(address.strip())
     name = os.path.basename(parts.path)
     if parts.scheme not in ("https", "http", "file") or not name:
-        raise Error(f"{address}: is not the address of a file (https://.../quadrille-...tar.xz)", "usage", address)
+        raise Error(translate("Quadrille", "{}: is not the address of a file (https://.../quadrille-...tar.xz)").format(address), "usage",
+                    address)
     target = Path(folder) / name
     part = target.with_name(name + ".part")
     try:
@@ -59,13 +60,13 @@ def download(address: str, folder: Union[str, Path], progress: Optional[Progress
                 file.write(chunk)
                 done += len(chunk)
                 if progress and progress(min(1.0, done / whole) if whole else 0.0) is False:
-                    raise Error(f"{address}: was cancelled", "cancelled", address)
+                    raise Error(translate("Quadrille", "{}: was cancelled").format(address), "cancelled", address)
             if whole and done != whole:
-                raise Error(f"{address}: ended after {done} of {whole} bytes", "failure", address)
+                raise Error(translate("Quadrille", "{}: ended after {} of {} bytes").format(address, done, whole), "failure", address)
         os.replace(part, target)
     except (OSError, ValueError, http.client.HTTPException) as error:  # URLError is an OSError
         reason = getattr(error, "reason", error)
-        raise Error(f"{address}: cannot be downloaded ({reason})", "failure", address) from error
+        raise Error(translate("Quadrille", "{}: cannot be downloaded ({})").format(address, reason), "failure", address) from error
     finally:
         if part.exists():
             part.unlink()
@@ -84,11 +85,12 @@ def _members(archive: tarfile.TarFile, path: Path) -> list:
             inside = inside and not member.linkname.startswith("/") and \
                 len(parts) - 1 > Path(member.linkname).parts.count("..")
         if not inside or not (member.isfile() or member.isdir() or member.issym()):
-            raise Error(f"{path}: is refused: {member.name!r} would lie outside of its folder", "failure", str(path))
+            raise Error(translate("Quadrille", "{}: is refused: {} would lie outside of its folder").format(path, repr(member.name)), "failure",
+                        str(path))
         tops.add(parts[0])
         size += member.size
     if len(tops) != 1 or size > _MOST_BYTES:
-        raise Error(f"{path}: is not a bundle of Quadrille", "failure", str(path))
+        raise Error(translate("Quadrille", "{}: is not a bundle of Quadrille").format(path), "failure", str(path))
     return members
 
 
@@ -100,7 +102,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
         folder.mkdir(parents=True, exist_ok=True)
         fresh = Path(tempfile.mkdtemp(prefix=f"{_FOLDER}-", dir=folder))
     except OSError as error:
-        raise Error(f"{folder}: cannot be written ({error.strerror})", "failure", str(folder)) from error
+        raise Error(translate("Quadrille", "{}: cannot be written ({})").format(folder, error.strerror), "failure", str(folder)) from error
     try:
         with tarfile.open(path) as bundle:
             members = _members(bundle, path)
@@ -108,7 +110,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
             bundle.extractall(fresh, members, **extra)
         root = fresh / Path(members[0].name).parts[0]
         if not (root / "bin" / "quadrille").is_file():
-            raise Error(f"{path}: is not a bundle of Quadrille: it has no bin/quadrille", "failure", str(path))
+            raise Error(translate("Quadrille", "{}: is not a bundle of Quadrille: it has no bin/quadrille").format(path), "failure", str(path))
         check_version(str(root / "bin" / "quadrille"))
         target, old = folder / _FOLDER, fresh / "replaced"
         if target.exists():
@@ -120,7 +122,7 @@ def install(archive: Union[str, Path], data_folder: Union[str, Path]) -> str:
                 os.rename(old, target)
             raise
     except (OSError, tarfile.TarError, lzma.LZMAError, zlib.error, EOFError, subprocess.SubprocessError) as error:
-        raise Error(f"{path}: cannot be unpacked ({error})", "failure", str(path)) from error
+        raise Error(translate("Quadrille", "{}: cannot be unpacked ({})").format(path, error), "failure", str(path)) from error
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
     return str(folder / _FOLDER / "bin" / "quadrille")

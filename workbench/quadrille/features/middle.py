@@ -17,7 +17,7 @@ import Part
 
 from ..core import observers
 from ..core.command import CommandJob, scratch_folder
-from ..core.errors import Error
+from ..core.errors import QT_TRANSLATE_NOOP, Error
 from ..core.jobs import find_mesher, in_own_words
 from ..core.prepared import Prepared
 from ..document import state, translate
@@ -281,7 +281,7 @@ def _compute(part, partial: bool, join: bool) -> _Result:
 class _MiddleJob(CommandJob):
     """One run of `quadrille midsurface`, whose report is its .json file."""
 
-    _work = "the search for the middle surface"
+    _cancelled_sentence = QT_TRANSLATE_NOOP("Quadrille", "the search for the middle surface was cancelled")
     _report_option = "-o"
 
 

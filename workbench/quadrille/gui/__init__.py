@@ -8,17 +8,12 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from ..document import translate as translate
+from ..core.errors import QT_TRANSLATE_NOOP, translate  # noqa: F401
 from ..document.shapes import pairs
 
 _FOLDER = Path(__file__).resolve().parents[2]
 ICONS = _FOLDER / "icons"
 TRANSLATIONS = _FOLDER / "translations"
-
-
-def QT_TRANSLATE_NOOP(_context: str, text: str) -> str:  # Qt's tools look for this name
-    """Marks a text for translation and returns it unchanged."""
-    return text
 
 
 def icon(name: str) -> str:

@@ -10,6 +10,7 @@ from PySide import QtGui
 from ..core.errors import Error
 from ..core.setting_table import SETTINGS
 from . import translate
+from .findings_table import kept_with
 from .row_list import RowList
 
 #: The one whose entries are only names: they share a row.
@@ -84,8 +85,7 @@ class EntryRows(RowList):
 
     def keep(self, names: Sequence[str], on: bool) -> None:
         """Adds faces and edges to those to keep, or takes them away."""
-        others = [name for name in self.names() if name not in names]
-        self._show_changed([row for row in self._rows if row.property != NAMES], NAMES, [*others, *names] if on else others)
+        self._show_changed([row for row in self._rows if row.property != NAMES], NAMES, kept_with(self.names(), names, on))
 
     def select(self, name: str, place: str):
         """Selects the numbers of an entry, for typing others. Returns their field."""

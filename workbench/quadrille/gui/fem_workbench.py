@@ -6,6 +6,7 @@ workbench's lists. So the entries here are separate actions that run the command
 
 from typing import Any, Dict, Mapping, Optional, Sequence
 
+import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
@@ -49,6 +50,9 @@ class _FemEntries:
             window.removeToolBar(self._toolbar)
             window.addToolBar(self._toolbar)
         self._toolbar.setVisible(fem)
+        for name, action in self._actions.items():
+            # FreeCAD's own action has the shortcut once it exists; two actions with the same one would block each other.
+            action.setShortcut(_shortcut(name) if fem and not _own_actions(name) else "")
         if not fem:
             self._timer.stop()
             return
@@ -64,16 +68,17 @@ class _FemEntries:
             action.setEnabled(FreeCADGui.Command.get(name).isActive())
 
     def _fill_menu(self) -> None:
-        """Adds the actions to the menu that contains FEM's own mesh command."""
+        """Adds the actions, or FreeCAD's own where they exist, to the menu that contains FEM's own mesh command."""
+        shown = [(_own_actions(name) or [action])[0] for name, action in self._actions.items()]
         gmsh = FreeCADGui.Command.get("FEM_MeshGmshFromShape")
         theirs = gmsh.getAction() if gmsh is not None else []
         for entry in FreeCADGui.getMainWindow().menuBar().actions():
             menu = entry.menu()
             if menu is None or not any(action in menu.actions() for action in theirs):
                 continue
-            if not any(action in menu.actions() for action in self._actions.values()):
+            if not any(action in menu.actions() for action in shown):
                 menu.addSeparator()
-                menu.addActions(list(self._actions.values()))
+                menu.addActions(shown)
             return
 
 
@@ -86,6 +91,16 @@ class _Manipulator:
     def modifyMenuBar(self) -> list:
         """FreeCAD calls this for the entries to insert: all below FEM's own mesh command."""
         return [{"insert": name, "menuItem": "FEM_MeshGmshFromShape", "after": ""} for name in reversed(self._toolbar)]
+
+
+def _own_actions(name: str) -> list:
+    """FreeCAD's own action for a command, in a list; none before the first workbench that lists the command."""
+    return FreeCADGui.Command.get(name).getAction()
+
+
+def _shortcut(name: str) -> str:
+    """The user's shortcut for a command, or the command's own."""
+    return FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Shortcut").GetString(name, _commands[name].accelerator)
 
 
 def _action(name: str, parent) -> QtGui.QAction:

@@ -12,7 +12,7 @@ from ..core.errors import Error
 from ..document import picks
 from ..document.findings import findings_of
 from ..document.state import source_of
-from . import QT_TRANSLATE_NOOP, camera, mesh_clicks, overlays, translate
+from . import QT_TRANSLATE_NOOP, camera, mesh_clicks, overlays, tell_briefly, translate
 from .tables import fill, table
 
 #: The height of the table at most, in pixels: more rows scroll.
@@ -51,12 +51,19 @@ class Row(NamedTuple):
     forces: bool = False  #: whether quads there are poor
 
 
+def kept_with(kept: Sequence[str], names: Sequence[str], on: bool) -> List[str]:
+    """The faces and edges to keep after some were added, or taken away."""
+    others = [name for name in kept if name not in names]
+    return [*others, *names] if on else others
+
+
 def rows_of(mesh) -> List[Row]:
     """The findings of a mesh, the most harmful first: what was left out, by its distance; what forces poor quads, by their number;
-    what is crossed or joined; and what was kept although it is small."""
+    what is crossed or joined; what was kept although it is small; and what became of layers and pairs."""
     found = findings_of(mesh)
     kept = [Row((entry["name"],), translate("Quadrille", "small, but meshed: {}").format(_told(entry["why"]))) for entry in found["kept"]]
-    lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept)
+    lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept,
+             list(_asked(found)))
     return [row for rows in lists for row in _first(rows)]
 
 
@@ -88,6 +95,14 @@ def _crossed(found: Dict[str, List[Any]]) -> Iterable[Row]:
         yield Row((edge["name"],), translate("Quadrille", "smooth edge that quads cross; on {}").format(faces))
     for face in found["merged_faces"]:
         yield Row((face["name"],), _told(face["note"]))
+
+
+def _asked(found: Dict[str, List[Any]]) -> Iterable[Row]:
+    for layer in found.get("layers", ()):
+        yield Row((layer["name"],), translate("Quadrille", "layers: {} of {} quads along it are the first of {} rows").format(
+            layer["full"], layer["quads"], layer["asked"]))
+    for pair in found.get("matches", ()):
+        yield Row((pair["from"], pair["to"]), translate("Quadrille", "pair: {} has the same {} nodes").format(pair["to"], pair["nodes"]))
 
 
 def _told(sentence: str) -> str:
@@ -188,7 +203,10 @@ class FindingsTable(QtGui.QWidget):
 
     def _keep(self, keep: Callable[[Sequence[str], bool], None], on: bool) -> None:
         names = mesh_clicks.picked_on(self._mesh, "Face", "Edge")
-        if names:
+        if names and not on and not set(names) & set(self._kept):
+            tell_briefly(translate("Quadrille", "{}: not on the list of what is to be kept; the table says why the mesher itself keeps "
+                                   "an edge").format(", ".join(names)))
+        elif names:
             keep(names, on)
 
     def _clicked(self, document: str, _name: str, _point) -> None:

@@ -14,7 +14,7 @@ from ..document import groups
 from ..solvers import checklist
 from . import QT_TRANSLATE_NOOP, camera, do, drawn_icon, overlays, path_of, standard_buttons, transaction, translate
 from .element_view import Ball, ElementView
-from .findings_table import FindingsTable
+from .findings_table import FindingsTable, kept_with
 from .histogram import Histogram
 from .tables import fill, table
 from .wheel import calm
@@ -292,8 +292,7 @@ class QualityPanel:
 
     def _keep(self, names: Sequence[str], on: bool) -> Sequence[str]:
         """Adds faces and edges to those that the next meshing keeps, or takes them away."""
-        others = [name for name in self._mesh.Keep if name not in names]
-        self._set("Keep features", "Keep", [*others, *names] if on else others)
+        self._set("Keep features", "Keep", kept_with(self._mesh.Keep, names, on))
         return self._mesh.Keep
 
     def _set(self, step: str, name: str, entries: Sequence[str]) -> None:

@@ -46,6 +46,9 @@ _POLL_MILLISECONDS = 10
 _STAND_BY_MILLISECONDS = 500
 #: The mesher's minimum size, where none is given, is the size divided by this (see "Minimum" in the table of settings).
 _SIZE_TO_MINIMUM = 8
+#: How far a count may be above the wanted one without a word, as a factor; the mesher suggests no size above a tenth of the part's
+#: diagonal, here with a margin for rounding and for another measure of the diagonal.
+_CLOSE, _LARGEST = 1.1, 0.095
 #: The beginning of the mesher's message about smooth edges, which the panel words itself.
 _CROSSED = "note: quads cross"
 #: Properties that are always visible; the others are under "More settings".
@@ -360,13 +363,23 @@ class MeshPanel:
             self._suggests = False
             self._show_no_count(problem)
         else:
+            missed = self._suggests and self._misses(count)
             if self._suggests:
                 self._take_suggestion(count.size)
             self.by_face.show_counts(count.by_face)
             self._show_count(count.quads)
+            if missed:
+                self.estimate.setText(translate("Quadrille", "{}: its {} faces need more than {}, unless elements are larger than a tenth "
+                                                "of the part").format(self.estimate.text(), len(count.by_face), preferences.suggested_quads()))
         if self._mesh_when_suggested:
             self._mesh_when_suggested = False
             self._start()
+
+    def _misses(self, count: Count) -> bool:
+        """Whether even the largest size that is suggested gives more quads than wanted."""
+        part = self.mesh.Shape
+        return part is not None and count.quads > _CLOSE * preferences.suggested_quads() and \
+            count.size > _LARGEST * part.Shape.BoundBox.DiagonalLength
 
     def _take_suggestion(self, size: float) -> None:
         self._suggests = False

@@ -9,6 +9,7 @@ from typing import List, Optional
 import numpy as np
 
 from ..core import arrays
+from ..core.errors import translate
 from ..core.setting_table import BY_NAME
 
 #: Types with which CalculiX 2.20 finds a strip 3.5 times too soft (M3D8) and singular (M3D8R).
@@ -48,8 +49,9 @@ def problem_of(mesh) -> str:
         return ""  # no mesh yet, or not one of quads alone: it stays as FreeCAD writes it
     nodes = int(element.rstrip("R")[-1])
     if shells.corners.shape[1] != nodes:
-        return (f"{mesh.Label}: Element {element} needs a mesh of {'second' if nodes == 8 else 'first'} order: set its order, and "
-                "mesh again")
+        needs = translate("Quadrille", "{}: Element {} needs a mesh of second order: set its order, and mesh again") if nodes == 8 else \
+            translate("Quadrille", "{}: Element {} needs a mesh of first order: set its order, and mesh again")
+        return needs.format(mesh.Label, element)
     return _problem_in_plane(mesh.Label, element, shells) if lies_in_plane(element) else ""
 
 
@@ -58,12 +60,11 @@ def _problem_in_plane(label: str, element: str, shells: arrays.Shells) -> str:
     tolerance = _TOLERANCE * float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
     off = float(np.abs(points[:, 2]).max())
     if off > tolerance:
-        return (f"{label}: Element {element} needs a part in the plane z = 0, and this one leaves it by {off:.4g} mm: move or "
-                "rotate it there")
+        return translate("Quadrille", "{}: Element {} needs a part in the plane z = 0, and this one leaves it by {} mm: move or rotate it "
+                         "there").format(label, element, f"{off:.4g}")
     if element.startswith("CAX") and points[:, 0].min() < -tolerance:
-        return (f"{label}: Element {element} has the y axis as its axis of symmetry, and the part reaches to x = "
-                f"{points[:, 0].min():.4g} mm: move "
-                "it to positive x")
+        return translate("Quadrille", "{}: Element {} has the y axis as its axis of symmetry, and the part reaches to x = {} mm: move it to "
+                         "positive x").format(label, element, f"{points[:, 0].min():.4g}")
     return ""
 
 
@@ -89,13 +90,14 @@ def follow(path, element: str, reduced: bool, offset: float) -> List[str]:
     if element != SHELL:
         text, count = _OWN_TYPE.subn(f"TYPE={element},".encode(), text)
         text = _with_section(text, element)
-        told += [f"elements are written as {element} (its property Element)"] * bool(count)
+        told += [translate("Quadrille", "elements are written as {} (its property Element)").format(element)] * bool(count)
     elif reduced and b"TYPE=S8," in text:
         text = text.replace(b"TYPE=S8,", b"TYPE=S8R,")
-        told.append("shells are written as S8R, which is better than S8 where they are thin (its property ReducedShells)")
+        told.append(translate("Quadrille", "shells are written as S8R, which is better than S8 where they are thin (its property "
+                              "ReducedShells)"))
     if offset and b"*SHELL SECTION," in text:
         text = text.replace(b"*SHELL SECTION,", f"*SHELL SECTION, OFFSET={offset:g},".encode())
-        told.append(f"shells are written with the offset {offset:g} (its property ShellOffset)")
+        told.append(translate("Quadrille", "shells are written with the offset {} (its property ShellOffset)").format(f"{offset:g}"))
     if text != before:
         Path(path).write_bytes(text)
     return told

@@ -5,6 +5,7 @@ from typing import Any, List
 
 import FreeCAD
 
+from ..core.errors import translate
 from . import element_types
 
 #: Property of FreeCAD's CalculiX solver objects: results at the shell's surfaces, not only at its middle.
@@ -24,7 +25,7 @@ def hint_at_surfaces(result, analysis) -> None:
         return
     for solver in solvers_of(analysis):
         if not getattr(solver, SURFACE_RESULTS):
-            FreeCAD.Console.PrintWarning(
-                f"{result.Label}: shows stresses at the middle of the shell; those of bending are at its surfaces: set "
-                f"{SURFACE_RESULTS} of {solver.Label} to true, and solve again\n")
+            FreeCAD.Console.PrintWarning(translate(
+                "Quadrille", "{}: shows stresses at the middle of the shell; those of bending are at its surfaces: set {} of {} to true, and "
+                "solve again").format(result.Label, SURFACE_RESULTS, solver.Label) + "\n")
             return
