@@ -80,7 +80,8 @@ ShellMesh mesh_whole(const CadModel& model, const MeshOptions& options, const Mi
                         number_text(prepared.reach), first->what()));
       return result;
     } catch (const Error& error) {
-      if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+      const bool is_of_faces = dynamic_cast<const FaceProblem*>(&error) != nullptr || error.subject().empty();
+      if (!is_of_faces || error.kind() != Error::Kind::failure) throw;
       if (!first) first = error;
       if (how.reach_share == 0 || !suppresses_features(model, prepared)) throw Error(*first);
     }

@@ -125,9 +125,12 @@ class SpikeFinder {
     const Vector3 &last = one.points.back(), &other_last = two.points.back();
     if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, slender))) {
       if (!lies_between(before, one.parameters.back(), first, other_last)) return false;
+      // Vertices that share a node have it where the first of them lies: on the edge that keeps its nodes.
+      const VertexId end = vertex_at(before, false), other_end = vertex_at(after, true);
+      const auto [edge, other] = std::minmax(std::pair(end, before.edge), std::pair(other_end, after.edge));
       found_.push_back({.face = id_,
-                        .pairs = {{before.edge, after.edge, before.forward == after.forward}},
-                        .ties = {{vertex_at(before, false), vertex_at(after, true)}},
+                        .pairs = {{edge.second, other.second, before.forward == after.forward}},
+                        .ties = {{end, other_end}},
                         .joints = {{vertex_at(before, true), vertex_at(after, false)}},
                         .rims = {},
                         .is_spike = true});

@@ -564,7 +564,7 @@ class ScanGeometry : public ShellGeometry {
   std::shared_ptr<const MeshSurface> surface(FaceId piece, const FaceMesh&) const override {
     return std::make_shared<const PatchSurface>(model_.reference, model_.locator, patches_[piece]);
   }
-  Vector3 middle(EdgeId curve, double from, double to) const override {
+  Vector3 middle(EdgeId curve, double from, double to, const Vector3&, const Vector3&) const override {
     return model_.network.curves[curve.index()].at(0.5 * (from + to));
   }
   int number(FaceId piece) const override { return model_.face_numbers[patches_[piece]]; }

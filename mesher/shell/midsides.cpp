@@ -74,7 +74,10 @@ class MidsidePlacement {
       const auto [edge, k] = numbering_.segments[s];
       const auto& t = meshed_.nodes.edges[edge].parameters;
       segment.middle = static_cast<int>(mesh_.points.size());
-      mesh_.points.push_back(meshed_.geometry.middle(edge, t[k], t[k + 1]));
+      const auto& nodes = meshed_.nodes.edges[edge].nodes;
+      const auto& points = meshed_.nodes.points;
+      mesh_.points.push_back(
+          meshed_.geometry.middle(edge, t[k], t[k + 1], points[nodes[k]], points[nodes[k + 1]]));
       middles_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.middle);
     }
   }
@@ -161,9 +164,9 @@ class MidsidePlacement {
 
 }  // namespace
 
-Vector3 CadGeometry::middle(EdgeId edge, double from, double to) const {
+Vector3 CadGeometry::middle(EdgeId edge, double from, double to, const Vector3& first,
+                            const Vector3& last) const {
   const EdgeCurve curve(shape_.edges[edge]);
-  const Vector3 first = curve.point(from), last = curve.point(to);
   constexpr int bisections = 30;
   for (int i = 0; i < bisections; ++i) {
     const double t = 0.5 * (from + to);

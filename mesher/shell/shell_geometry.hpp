@@ -17,8 +17,9 @@ class ShellGeometry {
   virtual ~ShellGeometry() = default;
   /// The surface that the uv of a mesh of the face refer to.
   virtual std::shared_ptr<const MeshSurface> surface(FaceId face, const FaceMesh& mesh) const = 0;
-  /// The point of an edge that is equally far from the points at two parameters.
-  virtual Vector3 middle(EdgeId edge, double from, double to) const = 0;
+  /// The point of an edge that is equally far from the nodes at two parameters.
+  virtual Vector3 middle(EdgeId edge, double from, double to, const Vector3& first,
+                         const Vector3& last) const = 0;
   virtual int number(FaceId face) const = 0;  ///< number of the face in the shell, from 1
   virtual int number(EdgeId edge) const = 0;  ///< number of the edge in the shell, from 1
 };
@@ -30,7 +31,8 @@ class CadGeometry : public ShellGeometry {
   std::shared_ptr<const MeshSurface> surface(FaceId face, const FaceMesh& mesh) const override {
     return mesh.surface ? mesh.surface : std::make_shared<const FaceSurface>(shape_.faces[face]);
   }
-  Vector3 middle(EdgeId edge, double from, double to) const override;
+  Vector3 middle(EdgeId edge, double from, double to, const Vector3& first,
+                 const Vector3& last) const override;
   int number(FaceId face) const override { return face.number(); }
   int number(EdgeId edge) const override { return shape_.edges[edge].number; }
 

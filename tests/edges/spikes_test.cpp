@@ -126,7 +126,7 @@ TEST(Spikes, AreLeftOutOfTheMesh) {
   };
   EXPECT_NEAR(first(whole), 10, 1e-6);
   EXPECT_GT(first(early), 11);
-  EXPECT_LT(first(early), 17);
+  EXPECT_LT(first(early), 20);  // nodes slide: quads may cross the edge
   // Nothing is open but the rim of the plate, and the whole plate is covered.
   double area = 0;
   for (const auto& [a, b, c, d] : early.quads) {
