@@ -31,8 +31,13 @@ constexpr double sharp = 40;  // degrees: no quad in such a corner keeps within 
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const ShellMesh& mesh, const ByElement<SizeLayers>& layers)
-      : shape_(shape), mesh_(mesh), layers_(layers), limits_(limits_of(mesh)) {}
+  Finder(const CadShape& shape, const ShellMesh& mesh, const ByElement<SizeLayers>& layers,
+         const std::map<int, int>& cut_corners)
+      : shape_(shape),
+        mesh_(mesh),
+        layers_(layers),
+        limits_(limits_of(mesh)),
+        vertex_at_(cut_corners.begin(), cut_corners.end()) {}
 
   std::vector<ShellMesh::PoorQuads> run() {
     find_poor_quads();
@@ -272,8 +277,9 @@ class Finder {
 }  // namespace
 
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
-                                             const ByElement<SizeLayers>& layers) {
-  return Finder(shape, mesh, layers).run();
+                                             const ByElement<SizeLayers>& layers,
+                                             const std::map<int, int>& cut_corners) {
+  return Finder(shape, mesh, layers, cut_corners).run();
 }
 
 }  // namespace quadrille

@@ -1,6 +1,7 @@
 #pragma once
 /// Finds what forces quads outside the usual limits. Internal.
 
+#include <map>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -14,8 +15,9 @@ namespace quadrille {
 /// quad lies in, or the edges that come close there. One entry for each edge, and for each face and reason,
 /// those with the most quads first. The quads that only warp are left out: the curvature of the part does
 /// that, and so are those that are only flat or low, in the rows that `layers` requests along edges. Linear
-/// in the mesh.
+/// in the mesh. \param cut_corners by node: the vertex of the corner that a face ends before (spikes.hpp)
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
-                                             const ByElement<SizeLayers>& layers = {});
+                                             const ByElement<SizeLayers>& layers = {},
+                                             const std::map<int, int>& cut_corners = {});
 
 }  // namespace quadrille

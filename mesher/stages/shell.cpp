@@ -87,6 +87,20 @@ std::vector<ShellMesh::CrossedEdge> crossed_edges(const Prepared& prepared,
   return result;
 }
 
+/// By node: the model's vertex in the corner before which a face ends there.
+std::map<int, int> cut_corners(const Prepared& prepared, const TinyFeatures& tiny, const ShellMesh& mesh) {
+  std::map<int, int> corner_of, result;  // by vertex number
+  for (const auto& [face, id] : tiny.folded) {
+    const CadEdge& edge = prepared.shape.edges[id];
+    const auto [low, high] = std::minmax(edge.first_vertex.number(), edge.last_vertex.number());
+    if (low <= prepared.vertices && high > prepared.vertices) corner_of[high] = low;
+  }
+  for (const ShellMesh::Corner& corner : mesh.corners)
+    if (const auto found = corner_of.find(corner.vertex); found != corner_of.end())
+      result[corner.node] = found->second;
+  return result;
+}
+
 /// Lists the nodes at the places that users chose, and drops the corners at other vertices that are not the
 /// model's.
 void name_placed_nodes(const Prepared& prepared, ShellMesh& mesh) {
@@ -170,10 +184,11 @@ ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
     result.warnings.push_back(fmt::format("`layers` on Edge{} give sizes but no rows: {}", edge, why));
   result.filled_holes = prepared.simple.holes;
   result.crossed_edges = crossed_edges(prepared, crossed);
+  const std::map<int, int> corners = cut_corners(prepared, boundary.plan.tiny, result);
   name_placed_nodes(prepared, result);
   result.size_min = prepared.limits.size_min;
   if (prepared.limits.least < prepared.limits.size_min) result.finer_quads = finer_quads(result, run.field);
-  result.poor_quads = poor_quads(shape, result, prepared.options.sizing.layers);
+  result.poor_quads = poor_quads(shape, result, prepared.options.sizing.layers, corners);
   return result;
 }
 

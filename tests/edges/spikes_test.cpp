@@ -136,6 +136,15 @@ TEST(Spikes, AreLeftOutOfTheMesh) {
   EXPECT_NEAR(area, 100 * 100, 1e-6);
 }
 
+TEST(Spikes, ForceTheQuadsBesideThem) {
+  const ShellMesh mesh = meshed(sheet({{{10, 50}, {100, 37}, {100, 63}}}));
+  ASSERT_TRUE(ends_early(mesh, 1));
+  ASSERT_FALSE(mesh.poor_quads.empty());
+  EXPECT_EQ(mesh.poor_quads.front().cause, ShellMesh::PoorQuads::Cause::corner)
+      << mesh.poor_quads.front().why;
+  EXPECT_NE(mesh.poor_quads.front().why.find("degrees at Vertex"), std::string::npos);
+}
+
 TEST(Spikes, StayBesideEdgesThatUsersDivide) {
   const CadModel model = plate_with_wedge(10);
   MeshOptions options;
