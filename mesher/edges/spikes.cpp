@@ -121,13 +121,13 @@ class SpikeFinder {
                   from = (after.forward ? 1 : -1) * second.derivative(after.forward ? b.first : b.last);
     if (!(to.dot(from) > least_cosine * to.norm() * from.norm())) return false;
     const Arm one = arm_of(a, !before.forward), two = arm_of(b, after.forward);
-    const double slender = std::min(a.length, b.length) / least_slenderness;
+    const double narrow = std::min(a.length, b.length) / least_slenderness;
     const Vector3 &last = one.points.back(), &other_last = two.points.back();
-    if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, slender))) {
+    if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, narrow))) {
       if (!lies_between(before, one.parameters.back(), first, other_last)) return false;
       // Vertices that share a node have it where the first of them lies: on the edge that keeps its nodes.
       const VertexId end = vertex_at(before, false), other_end = vertex_at(after, true);
-      const auto [edge, other] = std::minmax(std::pair(end, before.edge), std::pair(other_end, after.edge));
+      const auto [edge, other] = std::minmax({std::pair(end, before.edge), std::pair(other_end, after.edge)});
       found_.push_back({.face = id_,
                         .pairs = {{edge.second, other.second, before.forward == after.forward}},
                         .ties = {{end, other_end}},
@@ -138,7 +138,7 @@ class SpikeFinder {
     }
     // Once divided there, the edges are closer than the width from end to end.
     constexpr double below = 0.9;
-    const double limit = std::min(below * width_, slender);
+    const double limit = std::min(below * width_, narrow);
     const std::optional<Place> end = limit_reached(one, two, limit), other = limit_reached(two, one, limit);
     const Place facing = nearest_on(two, end ? end->point : last);
     if (!lies_between(before, end ? end->parameter : one.parameters.back(), first, facing.point))

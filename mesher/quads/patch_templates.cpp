@@ -99,7 +99,8 @@ class Enumeration {
   void share(Regions regions, const Parts& parts, std::size_t part, int inside) {
     // Between two nodes there is only their side.
     const int most = parts[part].size() == 2 ? 0 : inside;
-    if (part + 1 == parts.size()) {
+    // The capacity is named for GCC 14, which unrolls this and warns about a part beyond it.
+    if (part + 1 == parts.size() || part + 1 == Parts::static_capacity) {
       if (inside > most) return;
       regions.push_back({parts[part], inside});
       return fill(std::move(regions));
