@@ -35,7 +35,8 @@ def layers_in(fem_mesh, entries: Sequence[str]) -> List[Dict[str, Any]]:
         return []
     measured, groups = quality.measure(fem_mesh), PartGroups(fem_mesh)
     sides: Dict[Tuple[int, int], List[Tuple[int, int]]] = {}
-    for quad, nodes in enumerate(measured.nodes.tolist()):
+    quads: Any = measured.nodes.tolist()  # text, say the types of NumPy 2.2
+    for quad, nodes in enumerate(quads):
         for k in range(4):
             a, b = nodes[k], nodes[k - 3]
             sides.setdefault((min(a, b), max(a, b)), []).append((quad, k))
