@@ -350,15 +350,24 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     }
     return inside;
   };
-  // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge.
+  // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge, or
+  // its middle goes on past it, as that of a lip flush with the outside does, up to the skin ahead.
   const auto up_to_corner = [&](double from, double end) {
-    const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
-    const bool corner = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end);
-    const double stop = corner ? end : from;
-    // Round a corner the next wall may go on past the end of the edge, as a lip flush with the outside does.
-    const double past = std::copysign(0.2 * thickness, end - 0.5 * (2 * first + length));
+    constexpr double longest = 4;  // over the thickness
     const bool line = edge.curve().GetType() == GeomAbs_Line;
-    return line && std::abs(stop - end) < 1e-3 * thickness && begins(end + past) ? end + 4.5 * past : stop;
+    if (!line && from == end) return from;
+    const double ahead = std::copysign(0.1 * thickness, end - first - 0.5 * length);
+    const double depth = depth_at(skin, wall, edge, from, next.away, thickness, next.depth);
+    const auto behind = [&](double t) { return edge.inside(t, depth).Translated(next.away * edge.away(t)); };
+    const auto hit = skin.first_hit(behind(from), gp_Dir(gp_Vec(behind(from), behind(from + ahead))));
+    const gp_Vec back = -close_by * thickness * edge.away(from);
+    const bool corner = hit && hit->distance > close_by * thickness && hit->distance < longest * thickness &&
+                        skin.in_material(edge.inside(from + ahead, 0.25 * thickness).Translated(back));
+    if (!corner) return from;
+    const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
+    const double stop = left < longest * thickness ? end : from;
+    const double reach = from + std::copysign(0.95 * hit->distance, ahead);
+    return line && (reach - stop) * ahead > 0 ? reach : stop;
   };
   std::vector<FaceEdge> result;
   for (int i = 0; i < count; ++i) {

@@ -872,11 +872,11 @@ TopoDS_Shape fused(const std::vector<TopoDS_Shape>& parts) {
 }
 
 /// Walls grow up to the next ones or to their rims, no farther, and joined by strips where they lie apart.
-void expect_one_part(const TopoDS_Shape& solid) {
+void expect_one_part(const TopoDS_Shape& solid, double off = 0.01) {
   const MidSurface middle = middle_of(solid);
   EXPECT_EQ(middle.parts, 1);
   EXPECT_TRUE(middle.stray_edges.empty());
-  EXPECT_NEAR(middle.shell_volume - middle.counted_twice, middle.volume, 0.01 * middle.volume);
+  EXPECT_NEAR(middle.shell_volume - middle.counted_twice, middle.volume, off * middle.volume);
 }
 
 TEST(MidSurface, EndsRibsThatAreLowerThanTheirBoss) {
@@ -935,6 +935,42 @@ TEST(MidSurface, LeadsALipRoundACorner) {
   // Half beside the wall.
   expect_one_part(fused({block({0, 0, 0}, 100, 2, 40), block({0, 0, 0}, 2, 70, 40),
                          block({1, 1, 38}, 99, 2, 10), block({1, 1, 38}, 2, 69, 10)}));
+}
+
+TEST(MidSurface, LeadsALipRoundASlantingCorner) {
+  for (const double degrees : {60.0, 120.0}) {
+    const double angle = degrees * M_PI / 180;
+    /// The material between two distances from the outside of both walls.
+    const auto band = [&](double low, double high, double height) {
+      const auto corner = [&](double d) { return Corner2d{d / std::tan(0.5 * angle), d}; };
+      const auto end = [&](double d) {
+        return Corner2d{70 * std::cos(angle) + d * std::sin(angle),
+                        70 * std::sin(angle) - d * std::cos(angle)};
+      };
+      return profile({{{100, low}, {100, high}, corner(high), end(high), end(low), corner(low)}}, height);
+    };
+    for (const double lip : {0.8, 1.0, 1.4}) {
+      SCOPED_TRACE(fmt::format("{} degrees, {} mm", degrees, lip));
+      expect_one_part(fused({band(0, 2, 40), band(0, lip, 48)}));
+      expect_one_part(fused({band(0, 2, 40), band(2 - lip, 2, 48)}));
+    }
+  }
+}
+
+/// The lip stands on the inside of all four walls.
+TEST(MidSurface, LeadsALipRoundATray) {
+  const TopoDS_Shape tray =
+      BRepAlgoAPI_Cut(fused({block({0, 0, 0}, 100, 70, 40), block({1, 1, 39}, 98, 68, 9)}),
+                      block({2, 2, 2}, 96, 66, 50))
+          .Shape();
+  expect_one_part(tray);
+}
+
+/// The plate below the pad ends where the angle on it does.
+TEST(MidSurface, EndsAnAngleAtTheEdgeOfAPlate) {
+  expect_one_part(
+      fused({block({0, 0, 0}, 60, 40, 3), block({40, 5, 3}, 20, 30, 3), block({57, 5, 6}, 3, 30, 40)}),
+      0.015);
 }
 
 TEST(MidSurface, JoinsALeaningFloorToItsStep) {
