@@ -353,7 +353,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   // In a corner between the wall and another one, the wall's own sides do not reach the end of the edge, or
   // its middle goes on past it, as that of a lip flush with the outside does, up to the skin ahead.
   const auto up_to_corner = [&](double from, double end) {
-    constexpr double longest = 4;  // over the thickness
+    constexpr double longest = 3;  // over the thickness
     const bool line = edge.curve().GetType() == GeomAbs_Line;
     if (!line && from == end) return from;
     const double ahead = std::copysign(0.1 * thickness, end - first - 0.5 * length);
@@ -363,8 +363,12 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     const gp_Vec back = -close_by * thickness * edge.away(from);
     const bool corner = hit && hit->distance > close_by * thickness && hit->distance < longest * thickness &&
                         skin.in_material(edge.inside(from + ahead, 0.25 * thickness).Translated(back));
-    if (!corner) return from;
     const double left = edge.curve().Value(from).Distance(edge.curve().Value(end));
+    if (!corner) {
+      const double stop = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end) ? end : from;
+      const double past = 2 * ahead;
+      return line && stop == end && begins(end + past) ? end + 4.5 * past : stop;
+    }
     const double stop = left < longest * thickness ? end : from;
     const double reach = from + std::copysign(0.95 * hit->distance, ahead);
     return line && (reach - stop) * ahead > 0 ? reach : stop;

@@ -11,8 +11,8 @@ namespace quadrille {
 
 namespace {
 
-/// The largest number of segments by the sizing field at which one is better than two.
-constexpr double most_wanted = 1;
+/// The largest number of segments by the sizing field to which one is nearer than two, by ratio.
+constexpr double most_wanted = 1.42;
 
 class SingleSegments {
  public:

@@ -7,7 +7,7 @@
 
 namespace quadrille {
 
-/// Gives one segment in place of two to the chords whose edges have a wanted count of at most one: the ends
+/// Gives one segment in place of two to the chords whose edges have a wanted count nearer to one: the ends
 /// of strips, for instance, which then have one row. Faces beside them are not cut from quads of twice the
 /// size, so their boundaries need an even sum of segments only: where the sum would be odd, a cheapest set of
 /// chords keeps its two segments (make_even()). Chords keep them too where curves, users, or sums over sides

@@ -346,7 +346,7 @@ std::vector<Sliver> find_slivers_of(const CadShape& shape, const FaceFlags& used
     if (auto tube = TubeFinder{shape, used, width}.find(id)) return {std::move(*tube)};
     if (auto sliver = SliverFinder(shape, used, width, id).find(cuts)) return {std::move(*sliver)};
   }
-  return cuts.empty() ? find_spikes(shape, id, width, taken, cuts) : std::vector<Sliver>();
+  return cuts.empty() ? find_spikes(shape, used, id, width, taken, cuts) : std::vector<Sliver>();
 }
 
 /// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.

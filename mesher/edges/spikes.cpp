@@ -69,8 +69,9 @@ bool lie_together(const Arm& one, const Arm& other, double limit) {
 
 class SpikeFinder {
  public:
-  SpikeFinder(const CadShape& shape, FaceId id, double width, EdgeEnds& taken, std::vector<EdgeCut>& cuts)
-      : shape_(shape), id_(id), width_(width), taken_(taken), cuts_(cuts) {}
+  SpikeFinder(const CadShape& shape, const FaceFlags& used, FaceId id, double width, EdgeEnds& taken,
+              std::vector<EdgeCut>& cuts)
+      : shape_(shape), used_(used), id_(id), width_(width), taken_(taken), cuts_(cuts) {}
 
   std::vector<Sliver> run() && {
     std::vector<const Coedge*> arriving;
@@ -106,10 +107,17 @@ class SpikeFinder {
            std::count(edge.faces.begin(), edge.faces.end(), id_) == 1;
   }
 
+  bool lies_beside(EdgeId edge) const {
+    const auto& faces = shape_.edges[edge].faces;
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](FaceId face) { return face != id_ && used_[face] != 0; });
+  }
+
   void add(const Coedge& before, const Coedge& after) {
     const std::pair arrival{before.edge, before.forward}, departure{after.edge, !after.forward};
     if (before.edge == after.edge || taken_.contains(arrival) || taken_.contains(departure)) return;
-    if (may_narrow(before) && may_narrow(after) && look_between(before, after))
+    const bool has_neighbor = lies_beside(before.edge) || lies_beside(after.edge);
+    if (has_neighbor && may_narrow(before) && may_narrow(after) && look_between(before, after))
       taken_.insert({arrival, departure});
   }
 
@@ -179,6 +187,7 @@ class SpikeFinder {
   }
 
   const CadShape& shape_;
+  const FaceFlags& used_;
   FaceId id_;
   double width_;
   EdgeEnds& taken_;
@@ -188,10 +197,10 @@ class SpikeFinder {
 
 }  // namespace
 
-std::vector<Sliver> find_spikes(const CadShape& shape, FaceId face, double width, EdgeEnds& taken,
-                                std::vector<EdgeCut>& cuts) {
+std::vector<Sliver> find_spikes(const CadShape& shape, const FaceFlags& used, FaceId face, double width,
+                                EdgeEnds& taken, std::vector<EdgeCut>& cuts) {
   if (!(width > 0)) return {};
-  return SpikeFinder(shape, face, width, taken, cuts).run();
+  return SpikeFinder(shape, used, face, width, taken, cuts).run();
 }
 
 }  // namespace quadrille

@@ -17,7 +17,7 @@ using EdgeEnds = std::set<std::pair<EdgeId, bool>>;
 /// these stay closer than `width`, over more than 2.5 times their distance. Cusps, and ends of fillets that
 /// run out. Edges shorter than the width are passed over. \param cuts gets the places that have to be divided
 /// first, so that a spike lies between two whole edges
-std::vector<Sliver> find_spikes(const CadShape& shape, FaceId face, double width, EdgeEnds& taken,
-                                std::vector<EdgeCut>& cuts);
+std::vector<Sliver> find_spikes(const CadShape& shape, const FaceFlags& used, FaceId face, double width,
+                                EdgeEnds& taken, std::vector<EdgeCut>& cuts);
 
 }  // namespace quadrille

@@ -92,7 +92,7 @@ std::map<int, int> cut_corners(const Prepared& prepared, const TinyFeatures& tin
   std::map<int, int> corner_of, result;  // by vertex number
   for (const auto& [face, id] : tiny.folded) {
     const CadEdge& edge = prepared.shape.edges[id];
-    const auto [low, high] = std::minmax(edge.first_vertex.number(), edge.last_vertex.number());
+    const auto [low, high] = std::minmax({edge.first_vertex.number(), edge.last_vertex.number()});
     if (low <= prepared.vertices && high > prepared.vertices) corner_of[high] = low;
   }
   for (const ShellMesh::Corner& corner : mesh.corners)
