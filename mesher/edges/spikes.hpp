@@ -1,6 +1,6 @@
 #pragma once
-/// Narrow corners of faces, which are left out of the mesh: 8 % fewer quads outside the limits on real parts
-/// (decision 67). Internal.
+/// Narrow corners of faces, which are left out of the mesh: an eighth fewer quads outside the limits on real
+/// parts (decision 67). Internal.
 
 #include <set>
 #include <utility>
