@@ -171,8 +171,12 @@ class SpikeFinder {
       arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);
       arm.points.push_back(arm.curve.point(arm.parameters.back()));
     };
-    double step = finer * width_;
-    for (double s = 0; s < edge.length; s += step, step *= growth) add(s);
+    double s = 0, step = finer * width_;
+    while (s < edge.length) {
+      add(s);
+      s += step;
+      step *= growth;
+    }
     add(edge.length);
     return arm;
   }
