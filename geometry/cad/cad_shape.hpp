@@ -43,6 +43,11 @@ struct CadEdge {
   bool is_used(const FaceFlags& used) const {
     return std::any_of(faces.begin(), faces.end(), [&](FaceId face) { return used[face] != 0; });
   }
+  /// Whether one of these faces, other than the given one, uses the edge.
+  bool is_used_beside(FaceId face, const FaceFlags& used) const {
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](FaceId other) { return other != face && used[other] != 0; });
+  }
 };
 
 /// The use of an edge by a face.

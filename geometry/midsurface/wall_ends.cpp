@@ -367,7 +367,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     if (!corner) {
       const double stop = left < 1.5 * thickness && is_material(0.9 * from + 0.1 * end) ? end : from;
       const double past = 2 * ahead;
-      return line && stop == end && begins(end + past) ? end + 4.5 * past : stop;
+      return line && std::abs(stop - end) < 1e-3 * thickness && begins(end + past) ? end + 4.5 * past : stop;
     }
     const double stop = left < longest * thickness ? end : from;
     const double reach = from + std::copysign(0.95 * hit->distance, ahead);

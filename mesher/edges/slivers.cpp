@@ -22,8 +22,6 @@ namespace {
 
 /// Faces with more edges than this are not narrow in practice.
 constexpr std::size_t most_edges = 40;
-/// A chain is at least this many times as long as the sliver is wide.
-constexpr double slender = 2.5;
 
 /// A long edge of a face, with samples in the direction of the wire.
 struct LongEdge {
@@ -185,15 +183,9 @@ class SliverFinder {
       for (std::size_t k = 0; k < i; ++k) {
         if (edges_[i].edge == edges_[k].edge) return false;
       }
-      any |= lies_beside(edges_[i].edge);
+      any |= shape_.edges[edges_[i].edge].is_used_beside(id_, used_);
     }
     return any;
-  }
-
-  bool lies_beside(EdgeId edge) const {
-    const auto& faces = shape_.edges[edge].faces;
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](FaceId face) { return face != id_ && used_[face] != 0; });
   }
 
   void sample(LongEdge& to, int intervals) const {
@@ -268,7 +260,7 @@ class SliverFinder {
   std::optional<Sliver> zip(const std::vector<int>& chain, const std::vector<int>& other,
                             std::vector<EdgeCut>& cuts) const {
     const double length = std::min(length_of(chain), length_of(other));
-    const double reach = std::min(width_, length / slender);
+    const double reach = std::min(width_, length / least_slenderness);
     if (std::abs(length_of(chain) - length_of(other)) > 0.2 * length + 2 * width_) return std::nullopt;
     if (!lies_along(chain, other, reach) || !lies_along(other, chain, reach)) return std::nullopt;
     std::map<int, int> match;  // junctions of the two chains, both ways
@@ -322,7 +314,7 @@ class SliverFinder {
       });
       if (facing == other.end()) return std::nullopt;
       const LongEdge& across = edges_[*facing];
-      const bool lends = lies_beside(edge.edge);
+      const bool lends = shape_.edges[edge.edge].is_used_beside(id_, used_);
       sliver.pairs.push_back(
           {lends ? edge.edge : across.edge, lends ? across.edge : edge.edge, edge.forward == across.forward});
       if (match.at(edge.start) != edge.start) sliver.ties.push_back({edge.from, across.to});

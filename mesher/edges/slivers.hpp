@@ -9,6 +9,10 @@
 
 namespace quadrille {
 
+/// Slivers and spikes are at least this many times as long as they are wide: between straight edges, an angle
+/// of 23 degrees.
+constexpr double least_slenderness = 2.5;
+
 /// A place on an edge where it is to be divided.
 struct EdgeCut {
   EdgeId edge;

@@ -19,8 +19,6 @@ namespace quadrille {
 
 namespace {
 
-/// A spike is at least this many times as long as it is wide: an angle of 23 degrees between straight edges.
-constexpr double least_slenderness = 2.5;
 /// Directions at the corner farther apart than this are not looked at.
 constexpr double least_cosine = 0.85;
 
@@ -107,16 +105,11 @@ class SpikeFinder {
            std::count(edge.faces.begin(), edge.faces.end(), id_) == 1;
   }
 
-  bool lies_beside(EdgeId edge) const {
-    const auto& faces = shape_.edges[edge].faces;
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](FaceId face) { return face != id_ && used_[face] != 0; });
-  }
-
   void add(const Coedge& before, const Coedge& after) {
     const std::pair arrival{before.edge, before.forward}, departure{after.edge, !after.forward};
     if (before.edge == after.edge || taken_.contains(arrival) || taken_.contains(departure)) return;
-    const bool has_neighbor = lies_beside(before.edge) || lies_beside(after.edge);
+    const bool has_neighbor = shape_.edges[before.edge].is_used_beside(id_, used_) ||
+                              shape_.edges[after.edge].is_used_beside(id_, used_);
     if (has_neighbor && may_narrow(before) && may_narrow(after) && look_between(before, after))
       taken_.insert({arrival, departure});
   }
@@ -124,15 +117,16 @@ class SpikeFinder {
   /// \return whether there is a spike, or will be one once edges are divided.
   bool look_between(const Coedge& before, const Coedge& after) {
     const CadEdge &a = shape_.edges[before.edge], &b = shape_.edges[after.edge];
-    const EdgeCurve first(a), second(b);
+    EdgeCurve first(a), second(b);
     const Vector3 to = (before.forward ? -1 : 1) * first.derivative(before.forward ? a.last : a.first),
                   from = (after.forward ? 1 : -1) * second.derivative(after.forward ? b.first : b.last);
     if (!(to.dot(from) > least_cosine * to.norm() * from.norm())) return false;
-    const Arm one = arm_of(a, !before.forward), two = arm_of(b, after.forward);
+    const Arm one = arm_of(a, !before.forward, std::move(first)),
+              two = arm_of(b, after.forward, std::move(second));
     const double narrow = std::min(a.length, b.length) / least_slenderness;
     const Vector3 &last = one.points.back(), &other_last = two.points.back();
     if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, narrow))) {
-      if (!lies_between(before, one.parameters.back(), first, other_last)) return false;
+      if (!lies_between(before, one.parameters.back(), one.curve, other_last)) return false;
       // Vertices that share a node have it where the first of them lies: on the edge that keeps its nodes.
       const VertexId end = vertex_at(before, false), other_end = vertex_at(after, true);
       const auto [edge, other] = std::minmax({std::pair(end, before.edge), std::pair(other_end, after.edge)});
@@ -149,7 +143,7 @@ class SpikeFinder {
     const double limit = std::min(below * width_, narrow);
     const std::optional<Place> end = limit_reached(one, two, limit), other = limit_reached(two, one, limit);
     const Place facing = nearest_on(two, end ? end->point : last);
-    if (!lies_between(before, end ? end->parameter : one.parameters.back(), first, facing.point))
+    if (!lies_between(before, end ? end->parameter : one.parameters.back(), one.curve, facing.point))
       return false;
     const auto may_cut = [&](const Arm& arm, const Place& place) {
       return (place.point - arm.points.front()).norm() > least_slenderness * limit &&
@@ -163,9 +157,9 @@ class SpikeFinder {
     return true;
   }
 
-  Arm arm_of(const CadEdge& edge, bool from_start) const {
+  Arm arm_of(const CadEdge& edge, bool from_start, EdgeCurve curve) const {
     constexpr double finer = 0.1, growth = 1.15;
-    Arm arm{EdgeCurve(edge), {}, {}};
+    Arm arm{std::move(curve), {}, {}};
     const double range = (edge.last - edge.first) / edge.length;
     const auto add = [&](double s) {
       arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);
