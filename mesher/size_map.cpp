@@ -11,6 +11,7 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/sizing_field.hpp"
+#include "geometry/surfaces/face_surface.hpp"
 #include "geometry/surfaces/surface_triangles.hpp"
 #include "mesher/estimate.hpp"
 #include "mesher/settings.hpp"
@@ -92,25 +93,38 @@ SizingOptions without_sources(const SizingOptions& options, const SizeLimits& li
 /// Looks up sizes at the points of a map.
 class Look {
  public:
-  /// \param point_faces (points) CAD face of each point
-  Look(const SizeMap& map, const std::vector<FaceId>& point_faces, std::size_t faces)
-      : map_(map), of_face_(faces) {
-    for (std::size_t i = 0; i < point_faces.size(); ++i)
-      of_face_[point_faces[i]].push_back(static_cast<int>(i));
+  Look(const CadShape& shape, SurfaceTriangles surface)
+      : points_(std::move(surface.points)), curvatures_(points_.size(), 0), of_face_(shape.faces.size()) {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      of_face_[surface.point_faces[i]].push_back(static_cast<int>(i));
+    for_each_id(of_face_, [&](FaceId face) {
+      const FaceSurface own(shape.faces[face]);
+      for (const int i : of_face_[face]) curvatures_[i] = own.max_curvature(surface.uv[i]);
+    });
   }
 
-  std::vector<double> sizes(const SizingField& field) const {
-    std::vector<double> result(map_.points.size(), 0);
+  const std::vector<Vector3>& points() const { return points_; }
+
+  struct Sizes {
+    std::vector<double> across, along;  // (points) of bends; equal elsewhere
+  };
+
+  Sizes sizes(const SizingField& field) const {
+    Sizes result{std::vector<double>(points_.size(), 0), std::vector<double>(points_.size(), 0)};
     for_each_id(of_face_, [&](FaceId face) {
       if (of_face_[face].empty()) return;
       SizingField::Sampler size_at(field, face);
-      for (const int i : of_face_[face]) result[i] = size_at(map_.points[i]);
+      for (const int i : of_face_[face]) {
+        result.along[i] = size_at(points_[i]);
+        result.across[i] = size_at.across(result.along[i], curvatures_[i]);
+      }
     });
     return result;
   }
 
  private:
-  const SizeMap& map_;
+  std::vector<Vector3> points_;
+  std::vector<double> curvatures_;              // (points)
   IdVector<FaceId, std::vector<int>> of_face_;  // indices of the points on each
 };
 
@@ -124,7 +138,7 @@ void sum_up(SizeMap& map) {
       SizeMap::Source& source = map.sources[map.rulers[node]];
       const double size = map.sizes[node];
       source.area += area;
-      source.quads += area / (size * size);
+      source.quads += area / (size * map.along[node]);
       source.least = std::min(source.least, size);
       source.largest = std::max(source.largest, size);
     }
@@ -151,7 +165,7 @@ void find_rulers(const CadModel& model, const MeshOptions& options, const Look& 
     MeshOptions alone = options;
     alone.sizing = without_sources(options.sizing, limits);
     kind.take(alone.sizing, options.sizing);
-    const std::vector<double> sizes = look.sizes(wanted_sizes(model, alone, context));
+    const std::vector<double> sizes = look.sizes(wanted_sizes(model, alone, context)).across;
     const int number = static_cast<int>(map.sources.size());
     map.sources.push_back({std::string(kind.name)});
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -188,13 +202,15 @@ SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionCon
     const SizingField field = wanted_sizes(model, options, context);
     if (!options.write_size_field.empty()) field.write(options.write_size_field);
     SurfaceTriangles surface = triangles_for(model, options, field, context);
-    map.points = std::move(surface.points);
     map.triangles = std::move(surface.triangles);
     for (const FaceId face : surface.faces) map.faces.push_back(face.number());
     for (const FaceId face : surface.missing) map.missing.push_back(face.number());
     for (const SurfaceTriangles::Line& line : surface.lines) map.lines.push_back({line.points, line.edge});
-    const Look look(map, surface.point_faces, static_cast<std::size_t>(model.face_count()));
-    map.sizes = look.sizes(field);
+    const Look look(model.shape(), std::move(surface));
+    map.points = look.points();
+    Look::Sizes found = look.sizes(field);
+    map.sizes = std::move(found.across);
+    map.along = std::move(found.along);
     find_rulers(model, options, look, map, context);
   });
   sum_up(map);

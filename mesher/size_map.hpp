@@ -28,7 +28,8 @@ struct SizeMap {
     int edge = 0;                       ///< CAD edge, from 1
   };
   std::vector<Vector3> points;  ///< (n) millimeters
-  std::vector<double> sizes;    ///< (n) wanted size at each point, millimeters
+  std::vector<double> sizes;    ///< (n) wanted size at each point, on bends across them, millimeters
+  std::vector<double> along;    ///< (n) on bends, the wanted size along them; equal to `sizes` elsewhere
   std::vector<int> rulers;      ///< (n) index into `sources`: the source that requests the smallest size
   std::vector<std::array<int, 3>> triangles;  ///< (m) counter-clockwise seen from outside
   std::vector<int> faces;                     ///< (m) CAD face of each triangle, from 1

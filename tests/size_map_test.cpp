@@ -3,6 +3,7 @@
 #include "mesher/size_map.hpp"
 
 #include <gtest/gtest.h>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ TEST_P(Maps, CoverTheModel) {
   EXPECT_NEAR(area_of(map), GetParam().area, 0.01 * GetParam().area);
   expect_conforming(map);
   ASSERT_EQ(map.sizes.size(), map.points.size());
+  ASSERT_EQ(map.along.size(), map.points.size());
   ASSERT_EQ(map.rulers.size(), map.points.size());
   ASSERT_EQ(map.faces.size(), map.triangles.size());
   const double largest = model.diagonal() / 30, share = model.diagonal() / 300;
@@ -73,7 +75,7 @@ TEST_P(Maps, CoverTheModel) {
     for (int k = 0; k < 3; ++k) {
       const int a = nodes[k], b = nodes[(k + 1) % 3];
       EXPECT_LE((map.points[a] - map.points[b]).norm(),
-                std::max(1.01 * share, 1.6 * std::max(map.sizes[a], map.sizes[b])));
+                std::max(1.01 * share, 1.6 * std::max(map.along[a], map.along[b])));
     }
   }
   for (const double size : map.sizes) {
@@ -136,6 +138,27 @@ TEST(SizeMap, FieldIsTheLeastOfItsSources) {
     EXPECT_GT(near, 0.9 * static_cast<double>(face_of.size()));
     EXPECT_GE(rulers.size(), 3u);
   }
+}
+
+/// A quarter tube of radius 5, 40 long: curvature asks for rows across, and the size for long quads.
+TEST(SizeMap, SizesOnBendsHaveDirections) {
+  constexpr double radius = 5, size = 8;
+  const CadModel model(
+      std::make_shared<CadShape>(BRepPrimAPI_MakeCylinder(radius, 40, M_PI / 2).Shell(), "quarter"));
+  MeshOptions options;
+  options.sizing.size = size;
+  options.sizing.elements_per_circle = 16;
+  const SizeMap map = map_of(model, options);
+  const double across = 2 * M_PI * radius / 16;
+  double longest = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    if (!(map.sizes[i] < 0.99 * map.along[i])) continue;
+    EXPECT_NEAR(std::hypot(map.points[i].x(), map.points[i].y()), radius, 0.05 * radius);  // on chords
+    EXPECT_NEAR(map.sizes[i], across, 1e-6);
+    longest = std::max(longest, map.along[i]);
+    EXPECT_EQ(map.sources[map.rulers[i]].name, "curvature");
+  }
+  EXPECT_GT(longest, 0.85 * std::min(size, options.sizing.aspect * across));  // between the ends
 }
 
 TEST(SizeMap, CountsChosenFacesOnly) {

@@ -33,6 +33,8 @@ bool add_face(const CadShape& shape, FaceId id, const TopoDS_Face& face, Surface
   const CadFace& cad = shape.faces[id];
   for (int i = 1; i <= mesh->NbNodes(); ++i) {
     surface.points.push_back(to_vector(mesh->Node(i).Transformed(place.Transformation())));
+    const gp_Pnt2d uv = mesh->HasUVNodes() ? mesh->UVNode(i) : gp_Pnt2d();
+    surface.uv.emplace_back(uv.X(), uv.Y());
     surface.point_faces.push_back(id);
   }
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
@@ -157,6 +159,7 @@ class Round {
     const auto [a, b] = side(triangle, k);
     point = static_cast<int>(surface_.points.size());
     surface_.points.push_back(0.5 * (surface_.points[a] + surface_.points[b]));
+    surface_.uv.push_back(0.5 * (surface_.uv[a] + surface_.uv[b]));
     surface_.point_faces.push_back(surface_.faces[triangle]);
     return point;
   }

@@ -23,6 +23,7 @@ struct SurfaceTriangles {
     FaceId face;
   };
   std::vector<Vector3> points;                ///< (n) millimeters
+  std::vector<Vector2> uv;                    ///< (n) parameters on the surface, approximate
   std::vector<FaceId> point_faces;            ///< (n) CAD face of each point
   std::vector<std::array<int, 3>> triangles;  ///< (m) counter-clockwise seen from outside
   std::vector<FaceId> faces;                  ///< (m) CAD face of each triangle, ascending

@@ -93,6 +93,7 @@ json all_of(const SizeMap& map) {
   for (const SizeMap::Line& line : map.lines) lines.push_back(line.points);
   result.update({{"points", text_of(flat<float>(map.points))},
                  {"point_sizes", text_of(std::vector<float>(map.sizes.begin(), map.sizes.end()))},
+                 {"point_sizes_along", text_of(std::vector<float>(map.along.begin(), map.along.end()))},
                  {"point_sources", text_of(map.rulers)},
                  {"triangles", text_of(flat<int>(map.triangles))},
                  {"triangle_faces", text_of(map.faces)},

@@ -143,7 +143,8 @@ std::string draw_sizes(const SizeMap& map, int width, int height) {
     scene->AddActor(line_actor(lines, points, line_width, 0.6));
     aim_camera(view, scale, scene);
   }
-  const std::string title = fmt::format("size in mm, about {:.0f} quads", map.quads);
+  const std::string title = fmt::format("size in mm, {}about {:.0f} quads",
+                                        map.sizes == map.along ? "" : "of bends across, ", map.quads);
   const vtkNew<vtkScalarBarActor> scale_of_sizes =
       color_bar(size_colors, {title.c_str(), "%.3g", 5}, 2 * height);
   scale_of_sizes->SetOrientationToHorizontal();

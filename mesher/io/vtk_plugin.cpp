@@ -100,16 +100,18 @@ class GridMaker {
 vtkNew<vtkUnstructuredGrid> sizes_grid(const SizeMap& map) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> sizes;
+  vtkNew<vtkDoubleArray> sizes, along;
   vtkNew<vtkIntArray> sources, faces, edges;
   vtkNew<vtkStringArray> names;
   sizes->SetName("size");
+  along->SetName("size_along");
   sources->SetName("source");
   faces->SetName("face");
   edges->SetName("edge");
   names->SetName("sources");
   for (const Vector3& point : map.points) points->InsertNextPoint(point.data());
   for (const double size : map.sizes) sizes->InsertNextValue(size);
+  for (const double size : map.along) along->InsertNextValue(size);
   for (const int source : map.rulers) sources->InsertNextValue(source);
   for (const SizeMap::Source& source : map.sources) names->InsertNextValue(source.name);
   vtkNew<vtkCellArray> cells;
@@ -127,6 +129,7 @@ vtkNew<vtkUnstructuredGrid> sizes_grid(const SizeMap& map) {
   grid->SetPoints(points);
   grid->SetCells(types, cells);
   grid->GetPointData()->AddArray(sizes);
+  grid->GetPointData()->AddArray(along);
   grid->GetPointData()->AddArray(sources);
   grid->GetCellData()->AddArray(faces);
   grid->GetCellData()->AddArray(edges);

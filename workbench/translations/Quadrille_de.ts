@@ -468,6 +468,10 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>dunkel {} mm, hell {} mm</translation>
     </message>
     <message>
+        <source>bends: size across them; quads are up to {} times as long</source>
+        <translation>Biegungen: Größe quer zu ihnen; Vierecke sind bis zu {}-mal so lang</translation>
+    </message>
+    <message>
         <source>{}: {:.0f} quads on {} % of the area</source>
         <translation>{}: {:.0f} Vierecke auf {} % der Fläche</translation>
     </message>

@@ -468,6 +468,10 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>foncé {} mm, clair {} mm</translation>
     </message>
     <message>
+        <source>bends: size across them; quads are up to {} times as long</source>
+        <translation>plis : taille en travers ; les quadrangles sont jusqu’à {} fois plus longs</translation>
+    </message>
+    <message>
         <source>{}: {:.0f} quads on {} % of the area</source>
         <translation>{} : {:.0f} quadrangles sur {} % de l'aire</translation>
     </message>

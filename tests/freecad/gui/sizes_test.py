@@ -16,6 +16,7 @@ sys.path.append(str(Path(__file__).resolve().parents[3] / "examples" / "freecad"
 import FreeCAD
 import FreeCADGui
 import numpy as np
+import Part
 from PySide import QtCore, QtGui
 
 import quadrille.freecad
@@ -95,6 +96,19 @@ class SizesTest(GuiCase):
         process(0.2)
         self.assertIsNone(self.drawn())
         self.assertTrue(part.ViewObject.Visibility)
+        close_panel(CANCEL)
+
+    def test_bends_show_the_size_across(self):
+        part = self.document.addObject("Part::Feature", "Angle")
+        box = Part.makeBox(60, 20, 20)
+        part.Shape = box.makeFillet(1, [box.Edges[11]])
+        self.show()
+        mesh = self.open_and_show(part)
+        text = find("QuadrillePreviewText").text()
+        self.assertIn("bends: size across them", text)
+        found = sizes.start(mesh).wait()
+        on_bend = found.sizes < 0.9 * found.along
+        self.assertTrue(on_bend.any() and not on_bend.all())
         close_panel(CANCEL)
 
     def test_the_count_is_near_the_mesh(self):

@@ -31,7 +31,8 @@ class SizeMap(NamedTuple):
     """Sizes over triangles of the part's surface."""
 
     points: np.ndarray  #: (n, 3) float32, mm
-    sizes: np.ndarray  #: (n,) mm
+    sizes: np.ndarray  #: (n,) mm, on bends across them
+    along: np.ndarray  #: (n,) mm, on bends along them, elsewhere equal to sizes
     triangles: np.ndarray  #: (m, 3) int32, indices into points
     lines: np.ndarray  #: (k, 2) int32, along CAD edges
     quads: float  #: approximate number of quads in the mesh
@@ -130,9 +131,9 @@ class CountJob(SizesJob):
 def _map_of(told: Dict) -> SizeMap:
     sources = (Source(entry["name"], entry["area"], entry["quads"], entry["size_min"], entry["size_max"])
                for entry in told["sources"])
-    points, sizes = (_array(told[name], np.float32) for name in ("points", "point_sizes"))
+    points, sizes, along = (_array(told[name], np.float32) for name in ("points", "point_sizes", "point_sizes_along"))
     triangles, lines = (_array(told[name], np.int32) for name in ("triangles", "lines"))
-    return SizeMap(points.reshape(-1, 3), sizes.astype(float), triangles.reshape(-1, 3), lines.reshape(-1, 2),
+    return SizeMap(points.reshape(-1, 3), sizes.astype(float), along.astype(float), triangles.reshape(-1, 3), lines.reshape(-1, 2),
                    told["quads"], tuple(source for source in sources if source.area > 0))
 
 

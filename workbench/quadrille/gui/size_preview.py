@@ -20,6 +20,8 @@ _POLL_MILLISECONDS = 50
 _SETTLE_MILLISECONDS = 400
 #: Number of values handed to the 3-D view at a time, which takes some milliseconds.
 _PIECE = 20000
+#: Quads this many times as long as wide are worth a line.
+_NOTABLY_LONGER = 1.1
 #: The properties that have fields in the panel.
 _FIELDS = frozenset(setting["property"] for setting in SETTINGS if setting["property"])
 
@@ -175,6 +177,9 @@ def summary(found: sizes.SizeMap) -> str:
     """A text that explains the colors and lists the sources of the sizes."""
     lines = [translate("Quadrille", "dark {} mm, light {} mm").format(
         digits(found.sizes.min()), digits(found.sizes.max()))]
+    longest = (found.along / found.sizes).max()
+    if longest > _NOTABLY_LONGER:
+        lines.append(translate("Quadrille", "bends: size across them; quads are up to {} times as long").format(digits(longest)))
     area = sum(source.area for source in found.sources)
     for source in sorted(found.sources, key=lambda entry: -entry.quads):
         lines.append(translate("Quadrille", "{}: {:.0f} quads on {} % of the area").format(
