@@ -17,6 +17,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
@@ -38,6 +39,7 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/checks.hpp"
+#include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
@@ -128,21 +130,22 @@ struct Extent {
 
 /// \param part indices of faces
 Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::size_t>& part) {
-  TopTools_IndexedMapOfShape rims;
-  std::vector<int> uses;
   Extent result;
+  std::vector<JoinedFace> own;
+  TopTools_MapOfShape outer;
   for (const std::size_t i : part) {
     const double area = area_of(faces[i].face);
     result.area += area;
     result.volume += area * faces[i].coverage.mean;
-    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next()) {
-      const int rim = rims.Add(it.Current());
-      uses.resize(rims.Extent());
-      ++uses[rim - 1];
-    }
+    own.push_back(faces[i]);
+    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next())
+      outer.Add(it.Current());
   }
-  for (int i = 1; i <= rims.Extent(); ++i)
-    result.perimeter += uses[i - 1] == 1 ? length_of(TopoDS::Edge(rims(i))) : 0;
+  const EdgeUses uses(own);  // the edge of a pocket is inner to the face around it, outer to the next one
+  for (int i = 0; i < uses.count(); ++i) {
+    if (uses.uses(i).size() == 1 && outer.Contains(uses.edge(i)))
+      result.perimeter += length_of(TopoDS::Edge(uses.edge(i)));
+  }
   return result;
 }
 
