@@ -967,11 +967,27 @@ TEST(MidSurface, EndsBladesInARing) {
 
 /// A rim that is too flat to run on into the plate ends across it.
 TEST(MidSurface, EndsFlatGussets) {
-  for (const double height : {5.0, 9.0, 14.0}) {
+  gp_Trsf aside;
+  aside.SetTranslation({0, 0, 30});
+  for (const double height : {10.0, 12.0}) {
     SCOPED_TRACE(height);
-    expect_one_part(fused({block({0, 0, 0}, 120, 60, 3), block({20, 0, 0}, 3, 60, 40),
-                           profile({{{22, 0}, {22, 3 + height}, {52, 3}, {52, 0}}}, 2.5)}));
+    const TopoDS_Shape gusset = profile({{{22, 2}, {22, 3 + height}, {47, 3}, {47, 2}}}, 2.5);
+    expect_one_part(fused({block({0, 0, 0}, 120, 3, 60), block({20, 0, 0}, 3, 40, 60),
+                           BRepBuilderAPI_Transform(gusset, aside, Standard_True).Shape()}));
   }
+}
+
+/// A bead that is thicker than wide is kept, with a word.
+TEST(MidSurface, TellsWallsThatAreThickerThanWide) {
+  const auto told = [](double high) {
+    const MidSurface middle =
+        middle_of(fused({block({0, 0, 0}, 160, 70, 3), block({0, 0, 0}, 160, 7, high)}));
+    return std::any_of(middle.warnings.begin(), middle.warnings.end(), [](const std::string& warning) {
+      return warning.find("is thicker than wide") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(8));
+  EXPECT_FALSE(told(40));
 }
 
 TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
