@@ -133,6 +133,7 @@ struct Extent {
 Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::size_t>& part) {
   Extent result;
   std::vector<JoinedFace> own;
+  own.reserve(part.size());
   TopTools_MapOfShape outer;
   for (const std::size_t i : part) {
     const double area = area_of(faces[i].face);

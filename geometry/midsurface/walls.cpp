@@ -327,6 +327,7 @@ void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
     return std::min(sums[0], sums[1]);
   };
   std::vector<double> areas;
+  areas.reserve(walls.size());
   for (const Wall& wall : walls)
     areas.push_back(size_of(wall, [](const SkinFace& face) { return face.area(); }));
   const auto is_stub = [&](std::size_t own) {
