@@ -21,6 +21,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "geometry/base/error.hpp"
@@ -132,8 +133,12 @@ gp_Pnt middle_of(const TopoDS_Shape& edge) {
 /// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
 /// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
 /// over has cut it. \param strips those that may be added
-void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<Strip>& strips,
-                    std::vector<JoinedFace>& faces) {
+void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std::vector<WallEnd>& ends,
+                    const std::vector<Strip>& strips, std::vector<JoinedFace>& faces) {
+  std::set<std::pair<int, int>> steps;  // walls between which the thickness steps
+  for (const WallEnd& end : ends) {
+    if (end.step) steps.insert(std::minmax(end.wall, end.next));
+  }
   std::vector<JoinedFace> pieces;
   for (const Strip& strip : strips) pieces.insert(pieces.end(), strip.begin(), strip.end());
   const EdgeUses among(pieces);
@@ -157,7 +162,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     };
     const auto contact_of = [&](const Strip& strip) {
       Contact result;
-      bool added = true;  // the face whose wall is the thinnest
+      // A strip has the thickness of a wall of its step, not of a rib that crosses it; of a strip only if
+      // need be.
+      std::tuple<bool, bool, double> best;
       const EdgeUses own_edges(strip);
       std::vector<TopoDS_Edge> loose;
       TopTools_MapOfShape met_vertices;
@@ -187,11 +194,12 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           if (piece.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
           result.met.insert(face.wall);
           if (ended) result.ended.insert(face.wall);
-          if (result.thinnest >= 0 && std::pair(added, walls[result.thinnest].thickness) <=
-                                          std::pair(face.step, walls[face.wall].thickness))
-            continue;
+          const bool crosses =
+              piece.step && face.wall != piece.wall && steps.count(std::minmax(piece.wall, face.wall)) == 0;
+          const std::tuple order(crosses, face.step, walls[face.wall].thickness);
+          if (result.thinnest >= 0 && best <= order) continue;
           result.thinnest = face.wall;
-          added = face.step;
+          best = order;
         }
       }
       for (const TopoDS_Edge& edge : loose) {
@@ -418,7 +426,7 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   std::vector<Strip> strips = fences_at_steps(fuse, ends, cut);
   for (const JoinedFace& piece : cut.hung_over) strips.push_back({piece});
   std::vector<JoinedFace> faces = std::move(cut.between);
-  grow_to_others(skin, walls, strips, faces);
+  grow_to_others(skin, walls, ends, strips, faces);
   drop_traces(faces);
   faces = merged_faces(skin, walls, faces, context);
   orient_alike(faces);

@@ -17,6 +17,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
@@ -38,6 +39,7 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/midsurface/checks.hpp"
+#include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/joining.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
@@ -64,6 +66,7 @@ struct SolidMiddle {
   std::vector<Wall> walls;
   Fillets fillets;
   CountedTwice twice;
+  std::set<int> stout;  ///< indices of the skin's faces beside walls that are kept though thicker than wide
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -128,21 +131,23 @@ struct Extent {
 
 /// \param part indices of faces
 Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::size_t>& part) {
-  TopTools_IndexedMapOfShape rims;
-  std::vector<int> uses;
   Extent result;
+  std::vector<JoinedFace> own;
+  own.reserve(part.size());
+  TopTools_MapOfShape outer;
   for (const std::size_t i : part) {
     const double area = area_of(faces[i].face);
     result.area += area;
     result.volume += area * faces[i].coverage.mean;
-    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next()) {
-      const int rim = rims.Add(it.Current());
-      uses.resize(rims.Extent());
-      ++uses[rim - 1];
-    }
+    own.push_back(faces[i]);
+    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next())
+      outer.Add(it.Current());
   }
-  for (int i = 1; i <= rims.Extent(); ++i)
-    result.perimeter += uses[i - 1] == 1 ? length_of(TopoDS::Edge(rims(i))) : 0;
+  const EdgeUses uses(own);  // the edge of a pocket is inner to the face around it, outer to the next one
+  for (int i = 0; i < uses.count(); ++i) {
+    if (uses.uses(i).size() == 1 && outer.Contains(uses.edge(i)))
+      result.perimeter += length_of(TopoDS::Edge(uses.edge(i)));
+  }
   return result;
 }
 
@@ -239,7 +244,15 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
     thick_volume += volume;
     faces.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
-  if (thick_volume <= 0.5 * all && all > 0) return;
+  if (thick_volume <= 0.5 * all && all > 0) {
+    const std::vector<char> stout = find_thick(middle, ends, 1);
+    for (std::size_t i = 0; i < stout.size(); ++i) {
+      const JoinedFace& face = middle.faces[i];
+      if (stout[i] != 0 && !face.step && area_of(face.face) * face.coverage.mean > 0.05 * all)
+        middle.stout.insert(face.coverage.faces.begin(), face.coverage.faces.end());
+    }
+    return;
+  }
   middle.faces = std::move(thin);
   if (middle.faces.empty()) return;
   tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width", name,
@@ -464,6 +477,14 @@ std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
       middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer);
 }
 
+/// The sentence for walls, such as beads, that are kept since most of the solid is thin.
+std::string stout_sentence(const SolidMiddle& middle, const Skin& skin) {
+  return fmt::format(
+      "{}: the wall between {} is thicker than wide: a shell can be some 5 % off in stiffness if much of the "
+      "load goes through it; compare it with a mesh of the solid",
+      middle.name, face_names(numbers_of(skin, middle.stout)));
+}
+
 /// The sentence for faces, by numbers of the result, where hollow sections meet.
 std::string hollow_sentence(const std::string& name, const std::vector<int>& numbers) {
   return fmt::format(
@@ -483,6 +504,7 @@ std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& sk
   std::vector<std::string> problems;
   check_volume(middle, numbers.faces, checked, problems);
   if (middle.fillets.softer > 0) checked.warnings.push_back(left_out_sentence(middle, skin));
+  if (!middle.stout.empty()) checked.warnings.push_back(stout_sentence(middle, skin));
   std::vector<int> hollow;
   for (const std::size_t face : hollow_joints(skin, middle.faces))
     hollow.push_back(numbers.faces.FindIndex(middle.faces[face].face));

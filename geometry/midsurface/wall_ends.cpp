@@ -176,6 +176,7 @@ struct NextWall {
 };
 
 constexpr double close_by = 0.05;       // over the thickness
+constexpr double least_steep = 0.5;     // sine of the angle at which rims run through others, as checked
 constexpr double at_one_vertex = 1e-4;  // over the thickness
 // Depths over the thickness at which a next wall is searched for. Half way down first: what begins there
 // continues the wall itself. Where two sheets lie on each other, the thinner one does not reach that depth.
@@ -552,7 +553,7 @@ class RimEnds {
   /// The direction in which the rim would continue, and the length up to the next skin.
   std::pair<gp_Vec, double> onward(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
     const gp_Vec straight = end.edge->away(end.at);
-    const gp_Vec away = rim.outward_along.Dot(straight) > 0.3 ? rim.outward_along : straight;
+    const gp_Vec away = rim.outward_along.Dot(straight) > least_steep ? rim.outward_along : straight;
     // A little within the rim, beside which the ray might run along the skin.
     const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * (away - end.outward_along));
     const auto hit = skin_.first_hit(start, gp_Dir(away));
@@ -570,13 +571,18 @@ class RimEnds {
   /// A parallelogram across the wall, from the vertex in the direction in which the rim would continue. It
   /// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
   /// normal would miss that edge, and with it the end of the rim; if the whole wall leans, it would miss
-  /// where the rim continues.
+  /// where the rim continues. Half way across a hollow side, as that of a ring around blades, the
+  /// tangent would be past the side: it begins before that.
   TopoDS_Face fence(const EdgeEnd& end, const gp_Vec& away, double length, double t) const {
     const gp_Pnt vertex = end.edge->curve().Value(end.at);
     const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
     const double wide = t / std::max(0.5, -across.Dot(end.edge->outward(end.at)));
-    const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away;
-    const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across));
+    const gp_Pnt half_way = vertex.Translated(0.5 * t * gp_Vec(across));
+    const SkinFace& beside = end.edge->beside();
+    const double late = gp_Vec(beside.point(beside.closest(half_way)), half_way).Dot(away);
+    const gp_Vec before = 2 * std::max(0.0, late) * away;
+    const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away + before;
+    const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across) - before);
     BRepBuilderAPI_MakePolygon border(start, start.Translated(aside), start.Translated(aside + onward),
                                       start.Translated(onward), Standard_True);
     return BRepBuilderAPI_MakeFace(border.Wire(), Standard_True).Face();

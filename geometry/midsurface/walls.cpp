@@ -16,6 +16,7 @@
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/matched_sides.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -316,6 +317,43 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
   });
 }
 
+/// Removes walls that are thicker than wide if the material between their sides lies in a wall with larger
+/// sides: what a pocket leaves of a plate along its rim is plate, not a wall that stands there.
+void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
+  const auto size_of = [&](const Wall& wall, auto&& size) {
+    std::array<double, 2> sums{0, 0};
+    for (int side = 0; side < 2; ++side)
+      for (const int face : wall.sides[side]) sums[side] += size(skin.faces()[face]);
+    return std::min(sums[0], sums[1]);
+  };
+  std::vector<double> areas;
+  areas.reserve(walls.size());
+  for (const Wall& wall : walls)
+    areas.push_back(size_of(wall, [](const SkinFace& face) { return face.area(); }));
+  const auto is_stub = [&](std::size_t own) {
+    const Wall& wall = walls[own];
+    if (size_of(wall, [](const SkinFace& face) { return width_of(face.face()); }) >= wall.thickness)
+      return false;
+    for (const int face : both_sides(wall)) {
+      for (const FaceSample& sample : skin.faces()[face].samples(samples_a_face)) {
+        const auto outward = skin.faces()[face].outward(sample.uv);
+        if (!outward) continue;
+        const gp_Pnt middle = sample.point.Translated(-0.5 * wall.thickness * gp_Vec(*outward));
+        if (!position_in(wall, skin, middle)) continue;
+        bool held = false;
+        for (std::size_t other = 0; other < walls.size() && !held; ++other)
+          held = areas[other] > areas[own] && position_in(walls[other], skin, middle);
+        if (!held) return false;
+      }
+    }
+    return true;
+  };
+  std::vector<Wall> kept;
+  for (std::size_t wall = 0; wall < walls.size(); ++wall)
+    if (!is_stub(wall)) kept.push_back(walls[wall]);
+  walls = std::move(kept);
+}
+
 }  // namespace
 
 std::vector<int> surface_numbers(const Skin& skin) {
@@ -354,6 +392,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
     walls.push_back({pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
     pair.middle = middle.surface;
   }
+  drop_stubs(skin, walls);
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
   move_chains(skin, surfaces, tolerance, 3 * thickest, context, pairs, walls);
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {

@@ -915,6 +915,81 @@ TEST(MidSurface, FindsPocketsBesideEachOther) {
   expect_one_part(BRepAlgoAPI_Cut(one, block({60, 40, -2}, 85, 50, 4)).Shape());
 }
 
+/// What a pocket leaves along the rim is narrower than thick, and belongs to the plate.
+TEST(MidSurface, MakesNoWallBetweenARimAndAPocket) {
+  const TopoDS_Shape plate = block({0, 0, 0}, 200, 120, 8);
+  const TopoDS_Shape one = BRepAlgoAPI_Cut(plate, block({20, 25, 4}, 80, 70, 4)).Shape();
+  const TopoDS_Shape solid = BRepAlgoAPI_Cut(one, block({115, 30, 0}, 80, 60, 3)).Shape();
+  expect_one_part(solid);
+  for (const MiddleFace& face : middle_of(solid).faces) {
+    const double t = face.thickness;
+    EXPECT_TRUE(t < 4.001 || std::abs(t - 5) < 0.001 || t > 7.999) << t;
+    EXPECT_TRUE(std::abs(t - 5) > 0.001 || face.step || face.area > 4799) << face.area;
+  }
+}
+
+/// The edge of a pocket is no rim, which would make the part seem narrow.
+TEST(MidSurface, TakesPocketsAndPadsForPartsOfTheirPlate) {
+  const TopoDS_Shape plate = block({0, 0, 0}, 180, 120, 10);
+  const TopoDS_Shape one = BRepAlgoAPI_Cut(plate, block({20, 15, 7}, 140, 90, 3)).Shape();
+  expect_one_part(BRepAlgoAPI_Cut(one, block({50, 35, 3}, 70, 50, 4)).Shape());
+}
+
+/// The strips of the step have the thickness of the plate, also where the stem crosses them.
+TEST(MidSurface, OfAPadBehindATee) {
+  for (const double y : {0.0, 5.0, 11.0}) {
+    const TopoDS_Shape solid =
+        fused({block({0, 0, 0}, 220, 65, 8), block({0, 29, 7}, 220, 7, 42), block({60, y, -5}, 80, 42, 6)});
+    expect_one_part(solid);
+    for (const MiddleFace& face : middle_of(solid).faces)
+      EXPECT_TRUE(!face.step || std::abs(face.thickness - 8) < 1e-6) << face.thickness;
+  }
+}
+
+/// The ring is hollow toward the ends of the blades, which are lower than ring and hub.
+TEST(MidSurface, EndsBladesInARing) {
+  for (const double radius : {24.0, 63.0}) {
+    const auto tube = [&](double inner, double outer) {
+      return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(outer, 40).Shape(),
+                             BRepPrimAPI_MakeCylinder(inner, 40).Shape())
+          .Shape();
+    };
+    std::vector<TopoDS_Shape> parts{tube(9, 12), tube(radius, radius + 3)};
+    for (int i = 0; i < 5; ++i) {
+      gp_Trsf turn;
+      turn.SetRotation(gp::OZ(), 0.4 * M_PI * i + 0.05);
+      parts.push_back(
+          BRepBuilderAPI_Transform(block({11, -1.25, 8}, radius - 10, 2.5, 24), turn, Standard_True).Shape());
+    }
+    expect_one_part(fused(parts));
+  }
+}
+
+/// A rim that is too flat to run on into the plate ends across it.
+TEST(MidSurface, EndsFlatGussets) {
+  gp_Trsf aside;
+  aside.SetTranslation({0, 0, 30});
+  for (const double height : {10.0, 12.0}) {
+    SCOPED_TRACE(height);
+    const TopoDS_Shape gusset = profile({{{22, 2}, {22, 3 + height}, {47, 3}, {47, 2}}}, 2.5);
+    expect_one_part(fused({block({0, 0, 0}, 120, 3, 60), block({20, 0, 0}, 3, 40, 60),
+                           BRepBuilderAPI_Transform(gusset, aside, Standard_True).Shape()}));
+  }
+}
+
+/// A bead that is thicker than wide is kept, with a word.
+TEST(MidSurface, TellsWallsThatAreThickerThanWide) {
+  const auto told = [](double high) {
+    const MidSurface middle =
+        middle_of(fused({block({0, 0, 0}, 160, 70, 3), block({0, 0, 0}, 160, 7, high)}));
+    return std::any_of(middle.warnings.begin(), middle.warnings.end(), [](const std::string& warning) {
+      return warning.find("is thicker than wide") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told(8));
+  EXPECT_FALSE(told(40));
+}
+
 TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
   for (const double thickness : {1.0, 2.0, 3.0}) {
     expect_one_part(fused({block({-30, 0, 0}, 60, 2, 120), block({-30, 0, 0}, 2, 40, 120),
