@@ -122,7 +122,7 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
     std::vector<double> counts(samples.size(), 0);
     for (const FaceId id : samples.ids()) {
       if (!boundary.meshed[id]) continue;
-      const CadFace& face = boundary.simple.model.shape().faces[id];
+      const CadFace& face = boundary.model.shape().faces[id];
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const FacePlan& plan = nodes.plans[id];

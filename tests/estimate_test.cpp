@@ -4,12 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
+#include "geometry/cad/cad_shape.hpp"
 #include "mesher/quadrille.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -49,6 +55,21 @@ TEST(QuadEstimate, IsCloseToTheMeshAcrossGaps) {
     ASSERT_EQ(by_face.size(), static_cast<std::size_t>(model.face_count()));
     const double sum = std::accumulate(by_face.begin(), by_face.end(), 0.0);
     EXPECT_LT(factor(static_cast<double>(mesh(model, options, context).quads.size()), sum), 1.25);
+  }
+}
+
+/// Beside spikes, edges are divided and get other numbers of segments than in the model as it was read. The
+/// sides of the arm touch the cylinder that it ends in.
+TEST(QuadEstimate, IsCloseToTheMeshAtSpikes) {
+  const TopoDS_Shape arm = BRepPrimAPI_MakeBox(gp_Pnt(0, -10, 0), 60, 20, 5).Shape();
+  const TopoDS_Shape part = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(10, 10).Shape(), arm).Shape();
+  const CadModel model(std::make_shared<CadShape>(part, "arm"));
+  ExecutionContext context(1);
+  MeshOptions options;
+  for (const double divisor : {30.0, 60.0}) {
+    options.sizing.size = model.diagonal() / divisor;
+    const double real = static_cast<double>(mesh(model, options, context).quads.size());
+    EXPECT_LT(factor(real, QuadEstimate(model, context).quads(options)), 1.25) << divisor;
   }
 }
 

@@ -9,12 +9,16 @@
 #include <Standard_Version.hxx>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
 #include "mesher/io/io.hpp"
+#include "mesher/mesh/joined_faces.hpp"
+#include "mesher/remesh/surface_locator.hpp"
 
 namespace quadrille {
 
@@ -121,10 +125,47 @@ json off_geometry_to_json(const ShellMesh& mesh) {
   });
 }
 
+/// How far crossed edges lie from the quads that cross them. A quad counts as two triangles.
+class CrossedDistances {
+ public:
+  explicit CrossedDistances(const ShellMesh& mesh) : joined_(mesh) {
+    TriangleMesh surface;
+    surface.points = mesh.points;
+    std::vector<int> patches;
+    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+      if (!joined_.contains(mesh.quad_faces[q])) continue;
+      const auto& [a, b, c, d] = mesh.quads[q];
+      surface.triangles.insert(surface.triangles.end(), {{a, b, c}, {a, c, d}});
+      const auto [found, is_new] =
+          patches_.try_emplace(joined_.first(mesh.quad_faces[q]), static_cast<int>(patches_.size()));
+      patches.insert(patches.end(), 2, found->second);
+    }
+    locator_.emplace(surface, patches, static_cast<int>(patches_.size()));
+  }
+
+  /// The farthest of the points that the edge is drawn by; 0 if its faces have no quads.
+  double of(const ShellMesh::CrossedEdge& edge) const {
+    const auto patch = patches_.find(joined_.first(edge.faces[0]));
+    double farthest = 0;
+    if (patch == patches_.end()) return farthest;
+    for (const Vector3& point : edge.line)
+      farthest = std::max(farthest, (locator_->nearest(patch->second, point).point - point).norm());
+    return farthest;
+  }
+
+ private:
+  JoinedFaces joined_;
+  std::map<int, int> patches_;  // of the locator, by the first of the faces that are taken as one
+  std::optional<SurfaceLocator> locator_;
+};
+
 json crossed_to_json(const ShellMesh& mesh) {
-  return listed(mesh.crossed_edges, [](const ShellMesh::CrossedEdge& edge) {
+  if (mesh.crossed_edges.empty()) return json::array();
+  const CrossedDistances distances(mesh);
+  return listed(mesh.crossed_edges, [&](const ShellMesh::CrossedEdge& edge) {
     return json{{"name", name_of_entity(1, edge.edge)},
                 {"faces", {name_of_entity(2, edge.faces[0]), name_of_entity(2, edge.faces[1])}},
+                {"distance", distances.of(edge)},
                 {"line", listed(edge.line, place_to_json)}};
   });
 }

@@ -24,8 +24,9 @@ MeshMeasures measure(const ShellMesh& mesh);
 /// inverted, irregular_percent, histogram, ...), criteria (how many quads fail the usual limits, by criterion
 /// and face, and the worst), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name,
 /// status, quads, q_min, note, off_geometry: how many of its nodes are off the geometry, and how
-/// far), off_geometry (node, distance) for all of them, suppressed_features, filled_holes, crossed_edges,
-/// matches, warnings, versions of the libraries.
+/// far), off_geometry (node, distance) for all of them, suppressed_features, filled_holes, crossed_edges
+/// (name, faces, the distance of the quads that cross it, a line to draw it by), matches, warnings, versions
+/// of the libraries.
 nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {});

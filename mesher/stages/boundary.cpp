@@ -256,12 +256,12 @@ bool undo_remedies(const CadShape& shape, Boundary& boundary, Faces& faces) {
 
 SettledBoundary settle_boundary(const CadModel& model, const MeshOptions& options,
                                 ExecutionContext& context) {
-  const Prepared prepared(model, options, {.divides = false});
+  const Prepared prepared(model, options);
   SizingField field = sizes_for(prepared, context);
   Boundary boundary(prepared);
   Faces faces(prepared);
   settle({prepared, field, context}, boundary, faces, false);
-  return {prepared.simple, std::move(field), std::move(boundary.nodes), boundary.meshed};
+  return {prepared.model, prepared.simple, std::move(field), std::move(boundary.nodes), boundary.meshed};
 }
 
 }  // namespace quadrille

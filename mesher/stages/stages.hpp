@@ -75,7 +75,8 @@ bool treat(const Prepared& prepared, Boundary& boundary, Faces& faces);
 bool undo_remedies(const CadShape& shape, Boundary& boundary, Faces& faces);
 
 struct SettledBoundary {
-  SimplifiedModel simple;
+  CadModel model;          ///< with faces joined and edges divided: its faces are those of the source
+  SimplifiedModel simple;  ///< before edges were divided
   SizingField field;
   BoundaryNodes nodes;
   FaceFlags meshed;  ///< see Boundary

@@ -16,10 +16,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "mesher/io/report.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/validate.hpp"
 #include "tests/support/process.hpp"
@@ -134,6 +137,48 @@ TEST(EdgeSuppression, KeepsSolidsClosedAndNodesOnTheirFaces) {
     }
     for (const auto& edge : mesh.crossed_edges) EXPECT_EQ(segments(mesh, edge.edge), 0);
   }
+}
+
+/// The distance of a point from the nearest of close points of the quads.
+double distance_from_quads(const ShellMesh& mesh, const Vector3& point) {
+  constexpr int steps = 40;
+  double least = std::numeric_limits<double>::max();
+  for (const auto& [a, b, c, d] : mesh.quads) {
+    for (int i = 0; i <= steps; ++i) {
+      for (int j = 0; j <= steps; ++j) {
+        const double u = static_cast<double>(i) / steps, v = static_cast<double>(j) / steps;
+        const auto& p = mesh.points;
+        const Vector3 at = (1 - v) * ((1 - u) * p[a] + u * p[b]) + v * ((1 - u) * p[d] + u * p[c]);
+        least = std::min(least, (at - point).norm());
+      }
+    }
+  }
+  return least;
+}
+
+TEST(EdgeSuppression, ReportsTellHowFarEdgesLieFromTheQuads) {
+  int edge = 0;
+  ExecutionContext context(1);
+  const auto reported = [&](const ShellMesh& mesh) {
+    return make_report(mesh, measure(mesh), context, "")["crossed_edges"];
+  };
+  const auto flat = reported(meshed(plate_with_slanted_edge(edge), 1.5));
+  ASSERT_EQ(flat.size(), 1U);
+  EXPECT_NEAR(flat[0]["distance"], 0, 1e-9);
+  MeshOptions options;
+  options.sizing.elements_per_circle = 8;
+  const ShellMesh mesh = meshed(rounded_box(), 6, options);
+  const auto round = reported(mesh);
+  ASSERT_EQ(round.size(), mesh.crossed_edges.size());
+  double most = 0;
+  for (std::size_t i = 0; i < round.size(); ++i) {
+    double farthest = 0;
+    for (const Vector3& point : mesh.crossed_edges[i].line)
+      farthest = std::max(farthest, distance_from_quads(mesh, point));
+    EXPECT_NEAR(round[i]["distance"], farthest, 0.05);
+    most = std::max(most, farthest);
+  }
+  EXPECT_GT(most, 0.01);
 }
 
 /// What CalculiX prints as the total reaction in z to a pressure of 1 on the elements of one face's group,

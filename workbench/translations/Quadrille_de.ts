@@ -740,16 +740,44 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Wo</translation>
     </message>
     <message>
-        <source>What, and why</source>
-        <translation>Was, und warum</translation>
+        <source>What</source>
+        <translation>Was</translation>
     </message>
     <message>
-        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
-        <translation>Bei Unterdrücktem: wie weit es von dem liegt, was dafür steht; bei gefüllten Löchern: die Breite; bei schlechten Vierecken: die kürzeste Seite</translation>
+        <source>Of what is suppressed: how far it lies from what stands for it; of an edge that quads cross: how far it lies from them; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Bei Unterdrücktem: wie weit es von dem liegt, was dafür steht; bei gekreuzten Kanten: wie weit sie von den Vierecken liegen; bei gefüllten Löchern: die Breite; bei schlechten Vierecken: die kürzeste Seite</translation>
     </message>
     <message>
         <source>Keep</source>
         <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>Size in</source>
+        <translation>Größe in</translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>Segmente</translation>
+    </message>
+    <message>
+        <source>Bias</source>
+        <translation>Abstufung</translation>
+    </message>
+    <message>
+        <source>Bias from both ends</source>
+        <translation>Abstufung von beiden Enden</translation>
+    </message>
+    <message>
+        <source>Pair</source>
+        <translation>Paar</translation>
+    </message>
+    <message>
+        <source>Node</source>
+        <translation>Knoten</translation>
     </message>
     <message>
         <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>

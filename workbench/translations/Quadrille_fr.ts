@@ -740,16 +740,44 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Où</translation>
     </message>
     <message>
-        <source>What, and why</source>
-        <translation>Quoi, pourquoi</translation>
+        <source>What</source>
+        <translation>Quoi</translation>
     </message>
     <message>
-        <source>Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their shortest side</source>
-        <translation>Pour ce qui est supprimé : sa distance à ce qui le remplace ; pour un trou rempli : sa largeur ; pour de mauvais quadrangles : leur plus petit côté</translation>
+        <source>Of what is suppressed: how far it lies from what stands for it; of an edge that quads cross: how far it lies from them; of a filled hole: its width; of poor quads: their shortest side</source>
+        <translation>Pour ce qui est supprimé : sa distance à ce qui le remplace ; pour une arête traversée : sa distance aux quadrangles ; pour un trou rempli : sa largeur ; pour de mauvais quadrangles : leur plus petit côté</translation>
     </message>
     <message>
         <source>Keep</source>
         <translation>Garder</translation>
+    </message>
+    <message>
+        <source>Size in</source>
+        <translation>Taille dans</translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation>Couches</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>Segments</translation>
+    </message>
+    <message>
+        <source>Bias</source>
+        <translation>Progression</translation>
+    </message>
+    <message>
+        <source>Bias from both ends</source>
+        <translation>Progression depuis les deux bouts</translation>
+    </message>
+    <message>
+        <source>Pair</source>
+        <translation>Paire</translation>
+    </message>
+    <message>
+        <source>Node</source>
+        <translation>Nœud</translation>
     </message>
     <message>
         <source>In the next mesh, the faces and edges selected here or in the 3-D view keep nodes of their own</source>

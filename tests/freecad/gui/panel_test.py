@@ -262,7 +262,9 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.CROSSED))
         self.edit(mesh)
-        self.assertEqual(self.found()["Edge2"], ("smooth edge that quads cross; on Face1", ""))  # told when the panel opens again
+        told, distance = self.found()["Edge2"]  # told when the panel opens again
+        self.assertEqual(told, "smooth edge that quads cross; on Face1")
+        self.assertTrue(0 < float(distance) < part.Shape.BoundBox.DiagonalLength / 60, distance)
         find("QuadrilleMore").setChecked(True)
         find("QuadrilleKeepFeatures").setChecked(True)
         self.press_mesh()
@@ -931,7 +933,7 @@ class PanelTest(GuiCase):
         find("QuadrilleRefineHere").click()
         process(0.3)
         name, box = find("QuadrilleEntryName0"), find("QuadrilleEntry0")
-        self.assertTrue(name.text().startswith("SizeIn sphere:"))
+        self.assertTrue(name.text().startswith("Size in sphere:"))
         x, y, z, radius = map(float, name.text().split(":")[1].split(","))
         np.testing.assert_allclose((x, y, z), measured.centers[index], atol=1e-4)
         self.assertAlmostEqual(radius, 1.5 * measured.lengths[index], 4)
@@ -1136,6 +1138,28 @@ class PanelTest(GuiCase):
                 self.assertIn(refused, boxes.texts[0])
                 close_panel(CANCEL)
                 FreeCADGui.setLocale("English")
+
+    def test_what_meshing_tells_is_in_the_language(self):
+        self.addCleanup(FreeCADGui.setLocale, "English")
+        FreeCADGui.setLocale("German")
+        part = self.document.addObject("Part::Feature", "Wedge")
+        part.Shape = Part.makeWedge(0, 0, 0, 0, 0, 20, 8, 20, 0, 20)
+        self.show()
+        self.open_panel(part)
+        type_into("QuadrilleSize", "3 mm")
+        self.press_mesh()
+        self.assertTrue(any("schlechte Vierecke" in told for told, _ in self.found().values()), self.found())
+        self.assertRegex(find("QuadrilleLog").toPlainText(), r"^vernetze\n\d+ Vierecke: [^\n]*$")
+        head = find("QuadrilleFindings").horizontalHeader()
+        for column in range(3):
+            self.assertLessEqual(head.sectionSizeHint(column), head.sectionSize(column))
+        worst = find("QuadrilleWorst")
+        wait_for(worst.count, what="the worst elements")
+        find("QuadrilleScrolled").ensureWidgetVisible(worst)
+        click(worst.viewport(), QtCore.QPointF(worst.visualItemRect(worst.item(0)).center()))
+        click(find("QuadrilleRefineHere"), QtCore.QPointF(find("QuadrilleRefineHere").rect().center()))
+        self.assertTrue(find("QuadrilleEntryName0").text().startswith("Größe in sphere:"), find("QuadrilleEntryName0").text())
+        close_panel()
 
     def test_languages_are_complete(self):
         folder = Path(quadrille.freecad.__file__).resolve().parents[1] / "translations"

@@ -9,7 +9,7 @@ from PySide import QtGui
 
 from ..core.errors import Error
 from ..core.setting_table import SETTINGS
-from . import translate
+from . import QT_TRANSLATE_NOOP, translate
 from .findings_table import kept_with
 from .row_list import RowList
 
@@ -17,6 +17,17 @@ from .row_list import RowList
 NAMES = "Keep"
 #: Properties whose value is a list of texts such as "Edge4=20".
 PROPERTIES = tuple(setting["property"] for setting in SETTINGS if setting["property"] and setting["kind"] == "entries")
+#: What the rows call them.
+_WORDS = {
+    "SizeIn": QT_TRANSLATE_NOOP("Quadrille", "Size in"),
+    "Layers": QT_TRANSLATE_NOOP("Quadrille", "Layers"),
+    "Segments": QT_TRANSLATE_NOOP("Quadrille", "Segments"),
+    "Bias": QT_TRANSLATE_NOOP("Quadrille", "Bias"),
+    "BiasBoth": QT_TRANSLATE_NOOP("Quadrille", "Bias from both ends"),
+    "Match": QT_TRANSLATE_NOOP("Quadrille", "Pair"),
+    "NodesAt": QT_TRANSLATE_NOOP("Quadrille", "Node"),
+    "Keep": QT_TRANSLATE_NOOP("Quadrille", "Keep"),
+}
 
 
 class _Row(NamedTuple):
@@ -76,7 +87,8 @@ class EntryRows(RowList):
     def _add_row(self, name: str, place: str, text: str) -> None:
         box = QtGui.QLineEdit(text)
         box.setObjectName(f"QuadrilleEntry{len(self._rows)}")
-        self._show_row(_Row(name, place, box), f"{name} {place}".rstrip(), f"{name}: {place}={text}" if place else name, box, "QuadrilleEntry")
+        shown = f"{translate('Quadrille', _WORDS[name])} {place}".rstrip()
+        self._show_row(_Row(name, place, box), shown, f"{name}: {place}={text}" if place else name, box, "QuadrilleEntry")
 
     def add(self, name: str, entries: Dict[str, str]) -> None:
         """Adds entries of a property, by place. They replace existing entries with the same place."""

@@ -92,7 +92,8 @@ def _poor(found: Dict[str, List[Any]]) -> Iterable[Row]:
 def _crossed(found: Dict[str, List[Any]]) -> Iterable[Row]:
     for edge in found["crossed_edges"]:
         faces = ", ".join(dict.fromkeys(edge["faces"]))
-        yield Row((edge["name"],), translate("Quadrille", "smooth edge that quads cross; on {}").format(faces))
+        text = translate("Quadrille", "smooth edge that quads cross; on {}").format(faces)
+        yield Row((edge["name"],), text, edge.get("distance", 0.0))  # documents of older versions have none
     for face in found["merged_faces"]:
         yield Row((face["name"],), _told(face["note"]))
 
@@ -122,10 +123,10 @@ class FindingsTable(QtGui.QWidget):
         self._rows: List[Row] = []  # these, and what is only to be kept
         self._kept: Sequence[str] = ()
         self.table = table("QuadrilleFindings", 3, 1, _MOST_HEIGHT)
-        self.table.setHorizontalHeaderLabels([translate("Quadrille", "Where"), translate("Quadrille", "What, and why"), "mm"])
+        self.table.setHorizontalHeaderLabels([translate("Quadrille", "Where"), translate("Quadrille", "What"), "mm"])
         self.table.horizontalHeaderItem(2).setToolTip(translate(
-            "Quadrille", "Of what is suppressed: how far it lies from what stands for it; of a filled hole: its width; of poor quads: their "
-            "shortest side"))
+            "Quadrille", "Of what is suppressed: how far it lies from what stands for it; of an edge that quads cross: how far it lies from them; of a "
+            "filled hole: its width; of poor quads: their shortest side"))
         self.table.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
         self.table.itemSelectionChanged.connect(self._show)
         self._buttons = QtGui.QWidget()

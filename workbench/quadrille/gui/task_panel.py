@@ -49,8 +49,8 @@ _SIZE_TO_MINIMUM = 8
 #: How far a count may be above the wanted one without a word, as a factor; the mesher suggests no size above a tenth of the part's
 #: diagonal, here with a margin for rounding and for another measure of the diagonal.
 _CLOSE, _LARGEST = 1.1, 0.095
-#: The beginning of the mesher's message about smooth edges, which the panel words itself.
-_CROSSED = "note: quads cross"
+#: The beginning of the mesher's notes on what it left out, crossed or made poor: the table of what went lists it, in the user's language.
+_LISTED = "note: "
 #: Properties that are always visible; the others are under "More settings".
 _IN_SIGHT = ("Size", "ElementOrder", "Faces")
 #: Stands for the field that an error concerns if it concerns none: it is shown below the expected number.
@@ -546,7 +546,7 @@ class MeshPanel:
             return
         self.preview.button.setChecked(False)
         for line in job.messages:
-            if not line.startswith(_CROSSED):
+            if not line.startswith(_LISTED):
                 self._say(line)
         self._show_progress(1)
         self._say(translate("Quadrille", "{} quads: mesher {} s, into FreeCAD {} s").format(
