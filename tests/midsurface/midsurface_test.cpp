@@ -1365,24 +1365,6 @@ TEST(MidSurface, MakesACornerOfATightBendWithEqualRadii) {
 }
 
 /// A quarter of a tube of radius 2, in a mesh of eight quads.
-TEST(MidSurface, TellsShellsThatAreThickerThanBent) {
-  ShellMesh tube;
-  constexpr int count = 8;
-  for (int i = 0; i <= count; ++i) {
-    const double angle = 0.5 * M_PI * i / count;
-    for (const double z : {0.0, 1.0}) tube.points.push_back({2 * std::cos(angle), 2 * std::sin(angle), z});
-    if (i == count) break;
-    tube.quads.push_back({2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1});
-    tube.quad_faces.push_back(i < 4 ? 1 : 2);
-  }
-  EXPECT_TRUE(faces_with_bad_skins(tube).empty()) << "nothing is known of its thickness";
-  tube.thicknesses = {3, 3};
-  EXPECT_TRUE(faces_with_bad_skins(tube).empty());
-  tube.thicknesses = {3, 6};
-  EXPECT_EQ(faces_with_bad_skins(tube), std::vector<int>{2});
-  EXPECT_NE(bad_skins_sentence({2}).find("Face2"), std::string::npos);
-}
-
 TEST(MidSurface, NeedsASolid) {
   const TopoDS_Shape face = TopExp_Explorer(thick_block(), TopAbs_FACE).Current();
   EXPECT_THROW(middle_of(face), Error);
