@@ -13,6 +13,7 @@
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/face_mesher.hpp"
 #include "tests/support/sample_models.hpp"
+#include "tests/support/sampled_faces.hpp"
 
 namespace quadrille {
 namespace {
@@ -132,6 +133,30 @@ TEST(PointPlacement, GivesTheSameTwice) {
     EXPECT_EQ(first.placed.points, second.placed.points) << name;
     EXPECT_EQ(first.placed.uv, second.placed.uv) << name;
   }
+}
+
+TEST(Placement, KeepsItsDistanceAndStaysInside) {
+  for_each_face([](SampledModel& sampled, FaceId, const FaceSurface& surface, const FaceBoundary& boundary) {
+    const TrimmedDomain domain = enclosed_domain(boundary);
+    const PlacedPoints placed = place(sampled, surface, boundary);
+    SizingField::Sampler size_at(sampled.field);
+    // Points come as near to each other as the nodes of the boundary, down to 0.4 times the size.
+    double least = 1;
+    for (const auto& segment : boundary.segments) {
+      const double length = (boundary.points[segment.b] - boundary.points[segment.a]).norm();
+      for (const int end : {segment.a, segment.b})
+        least = std::min(least, length / (sampled.nodes.stride * size_at(boundary.points[end])));
+    }
+    least = std::max(least, 0.4);
+    for (std::size_t i = 0; i < placed.uv.size(); ++i) {
+      EXPECT_TRUE(domain.inside(placed.uv[i]));
+      EXPECT_LT((surface.point(placed.uv[i]) - placed.points[i]).norm(), 1e-9 * sampled.model.diagonal());
+      const double limit = 0.5 * least * sampled.nodes.stride * size_at(placed.points[i]);
+      for (std::size_t j = i + 1; j < std::min(placed.uv.size(), i + 50); ++j) {
+        EXPECT_GT((placed.points[i] - placed.points[j]).norm(), limit);
+      }
+    }
+  });
 }
 
 }  // namespace
