@@ -180,51 +180,6 @@ TEST(SizingField, AFilletOfATenThousandthTakesLittleRoom) {
 
 /// Refused by an estimate, which has to be about right: half of the budget that it names is enough for twice
 /// the size.
-TEST(ElementBudget, RegionsAndLayersAreEstimatedBeforeAFieldIsMade) {
-  const CadModel model = CadModel::read(sample_model("box").path());
-  const FaceFlags used(model.face_count(), 1);
-  ExecutionContext context;
-  SizingOptions options;
-  options.size = model.diagonal() / 20;
-  const auto refused = [&] {
-    try {
-      ElementBudget(model, options, used, context);
-    } catch (const Error& error) {
-      return std::string(error.what()).find("million") != std::string::npos;
-    }
-    return false;
-  };
-  const double area = model.area(), reach = 2 * model.diagonal();
-  for (const double share : {0.5, 2.0}) {
-    SizeRegion region;
-    region.a = model.box_min() - Vector3::Constant(reach);
-    region.b = model.box_max() + Vector3::Constant(reach);
-    region.size = std::sqrt(area / (share * options.budget.elements));
-    options.regions = {region};
-    options.budget.blocks = 1e12;
-    options.budget.bytes_an_element = 0;
-    EXPECT_EQ(refused(), share > 1) << share;
-  }
-  // A small ball takes what lies in it, and no more.
-  const double radius = 0.1 * model.diagonal();
-  for (const double share : {0.5, 2.0}) {
-    SizeRegion region;
-    region.shape = SizeRegion::Shape::sphere;
-    region.a = model.box_min();
-    region.radius = radius;
-    region.size = std::sqrt(0.75 * M_PI * radius * radius / (share * options.budget.elements));
-    options.regions = {region};
-    EXPECT_EQ(refused(), share > 1) << share;
-  }
-  options.regions.clear();
-  options.layers.faces[1] = {1e-6, 1.2, 5};
-  EXPECT_TRUE(refused());
-  options.layers.faces.clear();
-  options.budget = Budget();
-  options.layers.edges[1] = {1e-7, 1.2, 5};
-  EXPECT_THROW(field_of(model, options), Error);
-}
-
 TEST(SizingField, IsExactAtATinyVertexToo) {
   const CadModel model = CadModel::read(sample_model("box").path());
   SizingOptions options;
@@ -238,17 +193,6 @@ TEST(SizingField, IsExactAtATinyVertexToo) {
     const double size = size_at(corner + Vector3(distance, 0, 0));
     EXPECT_LE(size, 1e-7 + options.growth * distance * 1.01);
     EXPECT_GE(size, 0.2 * options.growth * distance);
-  }
-}
-
-TEST(ElementCount, IsTheAreaOverTheSizeSquared) {
-  for (const SampleModel& sample : sample_models()) {
-    SCOPED_TRACE(sample.name);
-    const CadModel model = CadModel::read(sample.path());
-    ExecutionContext context;
-    const auto samples = sample_faces(model.shape(), FaceFlags(model.face_count(), 1), context);
-    const double count = count_elements(samples, [](FaceId, const FaceSample&) { return 0.5; });
-    EXPECT_NEAR(count / (4 * model.area()), 1, 0.1);
   }
 }
 
@@ -474,62 +418,6 @@ TEST(EdgeSampling, NoSegmentIsFarFromItsNeighborOnAUniformField) {
     }
     EXPECT_LT(high / low, 1.02);
   }
-}
-
-TEST(FaceSurface, AgreesWithItsDerivativesAndItsInverse) {
-  std::mt19937 random(4);
-  std::uniform_real_distribution<double> unit(0.05, 0.95);
-  int faces = 0;
-  for (const SampleModel& sample : sample_models()) {
-    SCOPED_TRACE(sample.name);
-    const CadModel model = CadModel::read(sample.path());
-    for (const CadFace& face : model.shape().faces) {
-      const FaceSurface surface(face);
-      ++faces;
-      for (int i = 0; i < 20; ++i) {
-        const Vector2 extent(face.u_max - face.u_min, face.v_max - face.v_min);
-        const Vector2 uv(face.u_min + unit(random) * extent.x(), face.v_min + unit(random) * extent.y());
-        const SurfacePoint at = surface.evaluate(uv);
-        const double h = 1e-6;
-        const Vector3 du =
-            (surface.point(uv + Vector2(h * extent.x(), 0)) - surface.point(uv - Vector2(h * extent.x(), 0)));
-        EXPECT_LT((du / (2 * h * extent.x()) - at.du).norm(),
-                  1e-4 * (at.du.norm() + model.diagonal() / extent.x()));
-        const Vector3 n = surface.normal(uv);
-        EXPECT_NEAR(n.norm(), 1, 1e-9);
-        EXPECT_NEAR(n.dot(at.du.normalized()), 0, 1e-9);
-        // A point lifted off the surface comes back to it.
-        const double lift = 1e-3 * model.diagonal();
-        Vector2 found = uv + 0.01 * extent;
-        EXPECT_LT((surface.project(found, at.point + lift * n).point - at.point).norm(),
-                  1e-5 * model.diagonal());
-      }
-    }
-  }
-  EXPECT_GT(faces, 20);
-}
-
-TEST(TrimmedDomain, TellsInsideFromOutsideAndFromHoles) {
-  std::vector<TrimmedDomain::Segment> segments;
-  const auto add_circle = [&](double radius, int n) {
-    for (int i = 0; i < n; ++i) {
-      const double a = 2 * M_PI * i / n, b = 2 * M_PI * (i + 1) / n;
-      segments.push_back(
-          {radius * Vector2(std::cos(a), std::sin(a)), radius * Vector2(std::cos(b), std::sin(b))});
-    }
-  };
-  add_circle(3, 97);
-  add_circle(1, 41);
-  const TrimmedDomain domain(segments);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> coordinate(-4, 4);
-  for (int i = 0; i < 20000; ++i) {
-    const Vector2 p(coordinate(random), coordinate(random));
-    const double r = p.norm();
-    if (std::abs(r - 3) < 0.01 || std::abs(r - 1) < 0.01) continue;
-    EXPECT_EQ(domain.inside(p), r > 1 && r < 3) << p.transpose();
-  }
-  EXPECT_FALSE(TrimmedDomain().inside({0, 0}));
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <vector>
 
 #include "geometry/cad/cad_model.hpp"
+#include "geometry/cad/cad_shape.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/sample_models.hpp"
 
@@ -41,27 +43,37 @@ TEST(FaceSurface, IsTheSameSeenFromAbove) {
   }
 }
 
-/// Derivatives are those of the points, and moving a point of the surface returns its parameters.
-TEST(FaceSurface, AgreesWithItself) {
+TEST(FaceSurface, AgreesWithItsDerivativesAndItsInverse) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(0.05, 0.95);
+  int faces = 0;
   for (const SampleModel& sample : sample_models()) {
+    SCOPED_TRACE(sample.name);
     const CadModel model = CadModel::read(sample.path());
     for (const CadFace& face : model.shape().faces) {
       const FaceSurface surface(face);
-      const Vector2 low(face.u_min, face.v_min), span(face.u_max - face.u_min, face.v_max - face.v_min);
-      const double size = (surface.mean_scale().cwiseProduct(span)).norm();
-      for (int i = 0; i < 36; ++i) {
-        const Vector2 uv = low + Vector2(0.1 + i % 6 * 0.16, 0.1 + i / 6 * 0.16).cwiseProduct(span);
+      ++faces;
+      for (int i = 0; i < 20; ++i) {
+        const Vector2 extent(face.u_max - face.u_min, face.v_max - face.v_min);
+        const Vector2 uv(face.u_min + unit(random) * extent.x(), face.v_min + unit(random) * extent.y());
         const SurfacePoint at = surface.evaluate(uv);
-        const Vector2 step = 1e-6 * span;
-        const Vector3 along_u = surface.point(uv + Vector2(step.x(), 0)) - at.point,
-                      along_v = surface.point(uv + Vector2(0, step.y())) - at.point;
-        EXPECT_LT((along_u - step.x() * at.du).norm(), 1e-9 * size) << sample.name;
-        EXPECT_LT((along_v - step.y() * at.dv).norm(), 1e-9 * size) << sample.name;
-        Vector2 moved = uv + 0.01 * span;
-        EXPECT_LT((surface.project(moved, at.point).point - at.point).norm(), 1e-6 * size) << sample.name;
+        const double h = 1e-6;
+        const Vector3 du =
+            (surface.point(uv + Vector2(h * extent.x(), 0)) - surface.point(uv - Vector2(h * extent.x(), 0)));
+        EXPECT_LT((du / (2 * h * extent.x()) - at.du).norm(),
+                  1e-4 * (at.du.norm() + model.diagonal() / extent.x()));
+        const Vector3 n = surface.normal(uv);
+        EXPECT_NEAR(n.norm(), 1, 1e-9);
+        EXPECT_NEAR(n.dot(at.du.normalized()), 0, 1e-9);
+        // A point lifted off the surface comes back to it.
+        const double lift = 1e-3 * model.diagonal();
+        Vector2 found = uv + 0.01 * extent;
+        EXPECT_LT((surface.project(found, at.point + lift * n).point - at.point).norm(),
+                  1e-5 * model.diagonal());
       }
     }
   }
+  EXPECT_GT(faces, 20);
 }
 
 }  // namespace
