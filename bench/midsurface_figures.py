@@ -8,8 +8,8 @@ material, CPU seconds. With --beams: cantilevers, meshed by Quadrille with S8R o
 the same solid: deflection under a uniform load on the section at the tip, and the first bending frequency, both by
 CalculiX (ccx on the PATH). With --bracket: the sample part, examples/freecad/sheet_bracket.step, as C3D20R, the
 reference for its shell. With --solids: CAD files of thin solids, clamped at the low end of their longest axis and loaded
-at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE. With --assemblies: the same for solids that touch, meshed with
---join, and fused by Gmsh.
+at the other, S8R against C3D10 of Gmsh whose size is the thinnest wall times SHARE. With --assemblies: the same for solids that touch,
+meshed with --join, and fused by Gmsh.
 """
 
 import argparse

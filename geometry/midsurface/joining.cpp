@@ -111,6 +111,7 @@ std::vector<Strip> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vecto
   std::map<std::size_t, Strip> strips;  // by the piece that stands for it
   for (std::size_t i = 0; i < pieces.size(); ++i) strips[together.find_set(i)].push_back(pieces[i]);
   std::vector<Strip> result;
+  result.reserve(strips.size());
   for (const auto& [piece, strip] : strips) result.push_back(strip);
   return result;
 }
