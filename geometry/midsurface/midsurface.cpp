@@ -201,6 +201,7 @@ std::string face_names(const std::vector<int>& numbers) {
 template <class Indices>
 std::vector<int> numbers_of(const Skin& skin, const Indices& faces) {
   std::vector<int> result;
+  result.reserve(faces.size());
   for (const int face : faces) result.push_back(skin.faces()[face].number());
   sort_unique(result);
   return result;
