@@ -125,8 +125,8 @@ class FindingsTable(QtGui.QWidget):
         self.table = table("QuadrilleFindings", 3, 1, _MOST_HEIGHT)
         self.table.setHorizontalHeaderLabels([translate("Quadrille", "Where"), translate("Quadrille", "What"), "mm"])
         self.table.horizontalHeaderItem(2).setToolTip(translate(
-            "Quadrille", "Of what is suppressed: how far it lies from what stands for it; of an edge that quads cross: how far it lies from them; of a "
-            "filled hole: its width; of poor quads: their shortest side"))
+            "Quadrille", "Of what is suppressed: how far it lies from what stands for it; of an edge that quads cross: how far it lies from "
+            "them; of a filled hole: its width; of poor quads: their shortest side"))
         self.table.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
         self.table.itemSelectionChanged.connect(self._show)
         self._buttons = QtGui.QWidget()
