@@ -380,6 +380,20 @@ class PanelTest(GuiCase):
         self.assertEqual(self.selected(), [])
         close_panel()
 
+    def test_keep_is_quick_in_a_long_list(self):
+        kinds = ("suppressed_features", "crossed_edges")
+        mesh = quadrille.freecad.mesh_object(self.box(), size=5)
+        mesh.Findings = findings.as_text({kind: [{"name": f"Edge{1 + number % 12}", "to": "Vertex1", "faces": ["Face1"], "distance": 0.1}
+                                                 for number in range(findings_table.MOST_ROWS)] for kind in kinds})
+        self.edit(mesh)
+        self.assertEqual(find("QuadrilleFindings").rowCount(), 2 * findings_table.MOST_ROWS)
+        self.click_finding("Edge1")
+        start = time.monotonic()
+        find("QuadrilleKeep").click()
+        self.assertLess(time.monotonic() - start, 1)
+        self.assertIn("to be kept", self.found()["Edge1"][0])
+        close_panel()
+
     def test_a_click_on_the_model_selects_its_row(self):
         part = self.stepped()
         mesh = self.open_panel(part)

@@ -6,7 +6,7 @@ geometry, which is slow. The mesh holds a group for each face, edge and vertex o
 constraints can be made at any time without a search, even when a constraint is added or changed after meshing.
 Runs inside FreeCAD."""
 
-from typing import Callable, Dict, Iterable, List, Set, Tuple
+from typing import Any, Callable, Dict, Iterable, List, Set, Tuple
 
 import FreeCAD
 
@@ -128,6 +128,7 @@ class PartGroups:
         self._mesh = fem_mesh
         self._numbers = {(fem_mesh.getGroupName(i), fem_mesh.getGroupElementType(i)): i for i in fem_mesh.Groups}
         self._nodes: Dict[str, Set[int]] = {}
+        self._names: Dict[str, Dict[Any, str]] = {}  # see _named()
 
     def elements(self, name: str) -> Iterable[int]:
         """The ids in the group of a face, edge or vertex; empty if there is no such group."""
@@ -148,16 +149,24 @@ class PartGroups:
 
     def vertex_at(self, node: int) -> str:
         """The vertex that a node stands on; empty if there is none."""
-        return next((name for name in self._of("Vertex") if node in self.elements(name)), "")
+        return self._named("Vertex").get(node, "")
 
     def edge_along(self, start: int, end: int) -> str:
         """The edge that runs from node to node along the side of an element; empty if there is none."""
-        return next((name for name in self._of("Edge") for element in self.elements(name)
-                     if {start, end} == set(self._mesh.getElementNodes(element)[:2])), "")
+        return self._named("Edge").get(frozenset((start, end)), "")
 
     def face_of(self, element: int) -> str:
         """The face that an element lies on; empty if there is none."""
-        return next((name for name in self._of("Face") if element in self.elements(name)), "")
+        return self._named("Face").get(element, "")
+
+    def _named(self, kind: str) -> Dict[Any, str]:
+        """The first group of a kind that each of its members is in: nodes on vertices, the ends of elements on edges, elements on faces."""
+        if kind not in self._names:
+            names = self._names[kind] = {}
+            for name in self._of(kind):
+                for element in self.elements(name):
+                    names.setdefault(frozenset(self._mesh.getElementNodes(element)[:2]) if kind == "Edge" else element, name)
+        return self._names[kind]
 
     def _of(self, kind: str) -> List[str]:
         return [name for name, _ in self._numbers if name.startswith(kind) and _is_part_group(name)]

@@ -35,10 +35,17 @@ def table(name: str, columns: int, wide: int = 0, most: int = _ANY_HEIGHT):
 
 def fill(table, rows: Sequence[Sequence[str]]) -> None:
     """Shows these rows and no others."""
+    across, down = table.horizontalHeader(), table.verticalHeader()
+    modes = [across.sectionResizeMode(column) for column in range(table.columnCount())]
+    for head in (across, down):  # else a table in sight measures all rows anew for each cell
+        head.setSectionResizeMode(QtGui.QHeaderView.Fixed)
     table.setRowCount(len(rows))
     for row, texts in enumerate(rows):
         for column, text in enumerate(texts):
             table.setItem(row, column, QtGui.QTableWidgetItem(text))
+    for column, mode in enumerate(modes):
+        across.setSectionResizeMode(column, mode)
+    down.setSectionResizeMode(QtGui.QHeaderView.ResizeToContents)
     _fit(table)
 
 
