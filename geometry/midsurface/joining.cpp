@@ -11,7 +11,6 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -41,17 +40,6 @@ TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
   for (const TopoDS_Face& face : faces) builder.Add(result, face);
   return result;
 }
-
-}  // namespace
-
-TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face) {
-  if (fuse.Images().IsBound(face)) return fuse.Images().Find(face);
-  TopTools_ListOfShape itself;
-  itself.Append(face);
-  return itself;
-}
-
-namespace {
 
 /// The pieces, cut at each other.
 struct Images {
@@ -119,7 +107,7 @@ std::vector<Strip> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vecto
 /// What a strip that may be added meets.
 struct Contact {
   std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
-  int thinnest = -1;         ///< wall among them, rather not of a strip that was added
+  int thickest = -1;         ///< wall among them, rather not of a strip that was added
   double length = 0;         ///< of the edges at which they end
   std::vector<Fan> on_skin;  ///< the edges that would be free, on the skin
   double loose = 0;          ///< length of the longest edge that it would leave open
@@ -163,8 +151,8 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     };
     const auto contact_of = [&](const Strip& strip) {
       Contact result;
-      // A strip has the thickness of a wall of its step, not of a rib that crosses it; of a strip only if
-      // need be.
+      // A strip has the thickness of the thicker wall of its step, in which it lies: it must hardly shear. It
+      // has not that of a rib that crosses it, and of a strip only if need be.
       std::tuple<bool, bool, double> best;
       const EdgeUses own_edges(strip);
       std::vector<TopoDS_Edge> loose;
@@ -197,9 +185,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           if (ended) result.ended.insert(face.wall);
           const bool crosses =
               piece.step && face.wall != piece.wall && steps.count(std::minmax(piece.wall, face.wall)) == 0;
-          const std::tuple order(crosses, face.step, walls[face.wall].thickness);
-          if (result.thinnest >= 0 && best <= order) continue;
-          result.thinnest = face.wall;
+          const std::tuple order(crosses, face.step, -walls[face.wall].thickness);
+          if (result.thickest >= 0 && best <= order) continue;
+          result.thickest = face.wall;
           best = order;
         }
       }
@@ -223,7 +211,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       if (contact.loose > walls[wall].thickness) continue;
       const bool own = !step && contact.ended.count(wall) != 0;
       if (!bridges && !own && !step) continue;
-      const int joins = own ? wall : contact.thinnest;
+      const int joins = own ? wall : contact.thickest;
       if (std::any_of(contact.on_skin.begin(), contact.on_skin.end(),
                       [&](const Fan& fan) { return leaves_through_side(skin, walls, joins, fan); }))
         continue;
@@ -285,29 +273,22 @@ void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>&
   TopoDS_Shell shell;
   const BRep_Builder builder;
   builder.MakeShell(shell);
-  int count = 0;
+  std::vector<JoinedFace> own;
   for (const JoinedFace& face : all) {
     if (face.wall != wall || face.step != steps) continue;
     builder.Add(shell, face.face);
-    ++count;
-  }
-  const auto keep_all = [&] {
-    for (const JoinedFace& face : all) {
-      if (face.wall == wall && face.step == steps) merged.push_back(face);
-    }
-  };
-  if (count < 2) {
-    keep_all();
-    return;
+    own.push_back(face);
   }
   ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
   unify.KeepShapes(kept_edges);
+  bool built = false;
   try {
-    unify.Build();
+    if (own.size() > 1) unify.Build();
+    built = own.size() > 1;
   } catch (const Standard_Failure&) {  // as at some seams; the faces are right as they are
-    keep_all();
-    return;
   }
+  if (!built) merged.insert(merged.end(), own.begin(), own.end());
+  if (!built) return;
   TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
   TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
   for (int i = 1; i <= unified.Extent(); ++i) {
@@ -393,8 +374,6 @@ namespace {
 bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
                  double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
   fuse.Clear();
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetUseOBB(Standard_True);
   fuse.SetFuzzyValue(fuzzy);
   for (const auto& of_wall : pieces) {
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));

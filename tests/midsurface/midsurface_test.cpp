@@ -935,14 +935,15 @@ TEST(MidSurface, TakesPocketsAndPadsForPartsOfTheirPlate) {
   expect_one_part(BRepAlgoAPI_Cut(one, block({50, 35, 3}, 70, 50, 4)).Shape());
 }
 
-/// The strips of the step have the thickness of the plate, also where the stem crosses them.
+/// The strips of the step have the thickness of plate and pad together, also where the stem crosses them: in
+/// the solid nothing shears there.
 TEST(MidSurface, OfAPadBehindATee) {
   for (const double y : {0.0, 5.0, 11.0}) {
     const TopoDS_Shape solid =
         fused({block({0, 0, 0}, 220, 65, 8), block({0, 29, 7}, 220, 7, 42), block({60, y, -5}, 80, 42, 6)});
     expect_one_part(solid);
     for (const MiddleFace& face : middle_of(solid).faces)
-      EXPECT_TRUE(!face.step || std::abs(face.thickness - 8) < 1e-6) << face.thickness;
+      EXPECT_TRUE(!face.step || std::abs(face.thickness - 13) < 1e-6) << face.thickness;
   }
 }
 
@@ -988,6 +989,23 @@ TEST(MidSurface, TellsWallsThatAreThickerThanWide) {
   };
   EXPECT_TRUE(told(8));
   EXPECT_FALSE(told(40));
+}
+
+/// A lip along an inner corner, told; one round the outer corner, or a gusset, is as stiff as in the solid.
+TEST(MidSurface, TellsLipsAtInnerCorners) {
+  const auto told = [](const std::vector<TopoDS_Shape>& lips) {
+    std::vector<TopoDS_Shape> parts{block({0, 0, 0}, 140, 60, 3), block({0, 0, 0}, 60, 140, 3)};
+    parts.insert(parts.end(), lips.begin(), lips.end());
+    std::string result;
+    for (const std::string& warning : middle_of(fused(parts)).warnings)
+      if (warning.find("inner corners") != std::string::npos) result += warning;
+    return result;
+  };
+  const TopoDS_Shape along_x = block({57, 57, 2}, 83, 3, 14), along_y = block({57, 57, 2}, 3, 83, 14);
+  for (const std::string& warning : {told({along_x, along_y}), told({along_x})})
+    EXPECT_NE(warning.find("up to some 5 % too soft"), std::string::npos) << warning;
+  EXPECT_EQ(told({block({0, 0, 2}, 140, 3, 14), block({0, 0, 2}, 3, 140, 14)}), "");
+  EXPECT_EQ(told({block({60, 30, 2}, 80, 3, 14)}), "");
 }
 
 TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
