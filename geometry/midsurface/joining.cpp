@@ -107,7 +107,7 @@ std::vector<Strip> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vecto
 /// What a strip that may be added meets.
 struct Contact {
   std::set<int> ended, met;  ///< walls that end inside the material there, and all walls
-  int thickest = -1;         ///< wall among them, rather not of a strip that was added
+  int thinnest = -1;         ///< wall among them, rather not of a strip that was added
   double length = 0;         ///< of the edges at which they end
   std::vector<Fan> on_skin;  ///< the edges that would be free, on the skin
   double loose = 0;          ///< length of the longest edge that it would leave open
@@ -151,8 +151,8 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     };
     const auto contact_of = [&](const Strip& strip) {
       Contact result;
-      // A strip has the thickness of the thicker wall of its step, in which it lies: it must hardly shear. It
-      // has not that of a rib that crosses it, and of a strip only if need be.
+      // A strip has the thickness of a wall of its step, not of a rib that crosses it; of a strip only if
+      // need be.
       std::tuple<bool, bool, double> best;
       const EdgeUses own_edges(strip);
       std::vector<TopoDS_Edge> loose;
@@ -185,9 +185,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           if (ended) result.ended.insert(face.wall);
           const bool crosses =
               piece.step && face.wall != piece.wall && steps.count(std::minmax(piece.wall, face.wall)) == 0;
-          const std::tuple order(crosses, face.step, -walls[face.wall].thickness);
-          if (result.thickest >= 0 && best <= order) continue;
-          result.thickest = face.wall;
+          const std::tuple order(crosses, face.step, walls[face.wall].thickness);
+          if (result.thinnest >= 0 && best <= order) continue;
+          result.thinnest = face.wall;
           best = order;
         }
       }
@@ -211,7 +211,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       if (contact.loose > walls[wall].thickness) continue;
       const bool own = !step && contact.ended.count(wall) != 0;
       if (!bridges && !own && !step) continue;
-      const int joins = own ? wall : contact.thickest;
+      const int joins = own ? wall : contact.thinnest;
       if (std::any_of(contact.on_skin.begin(), contact.on_skin.end(),
                       [&](const Fan& fan) { return leaves_through_side(skin, walls, joins, fan); }))
         continue;

@@ -34,7 +34,7 @@ struct MiddleFace {
   double area = 0;               ///< square millimeters
   std::vector<int> solid_faces;  ///< numbers of the solid's faces that it lies between
   int solid = 0;                 ///< from 1, in the order of the model
-  /// The face joins two middle surfaces that do not meet where the thickness steps. It has the larger
+  /// The face joins two middle surfaces that do not meet where the thickness steps. It has the smaller
   /// thickness of the two.
   bool step = false;
   bool fitted = false;  ///< there is no exact middle surface

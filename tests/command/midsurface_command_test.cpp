@@ -124,12 +124,12 @@ TEST_F(MidsurfaceCommand, MeshesThinSolidsWithASectionForEachThickness) {
       quadrille_says("mesh thin.brep --thin --size 10 --keep-features -o m.inp -o m.unv -o m.med --quiet");
   ASSERT_EQ(result.exit_code, 0) << result.out;
   const std::string deck = text("m.inp");
-  // The face that joins the steps lies in the thicker wall.
+  // The face that joins the steps has the smaller thickness.
+  EXPECT_PRED2(contains, deck,
+               "*ELSET, ELSET=Thickness3\nFace1\n*SHELL SECTION, ELSET=Thickness3, MATERIAL=Material\n3\n");
   EXPECT_PRED2(
       contains, deck,
-      "*ELSET, ELSET=Thickness3\nFace1\nFace3\n*SHELL SECTION, ELSET=Thickness3, MATERIAL=Material\n3\n");
-  EXPECT_PRED2(contains, deck,
-               "*ELSET, ELSET=Thickness2\nFace2\n*SHELL SECTION, ELSET=Thickness2, MATERIAL=Material\n2\n");
+      "*ELSET, ELSET=Thickness2\nFace2\nFace3\n*SHELL SECTION, ELSET=Thickness2, MATERIAL=Material\n2\n");
   EXPECT_GT(read_mesh(path("m.inp")).quads.size(), 50U);
   EXPECT_PRED2(contains, text("m.unv"), "\nThickness3\n");
   EXPECT_PRED2(contains, text("m.med"), "Thickness2");
