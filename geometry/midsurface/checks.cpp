@@ -507,6 +507,7 @@ InnerCorners inner_corners(const Skin& skin, const std::vector<JoinedFace>& face
                        faces[meeting[k].face].face, 0.5);
     if (std::abs(fans[0].normal.Dot(fans[1].normal)) > upright) continue;
     const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i));
+    if (BRep_Tool::IsClosed(edge)) continue;  // a tube's end, which has no corner
     for (int k = 0; k < 2; ++k) {
       const JoinedFace &plate = faces[meeting[k].face], &lip = faces[meeting[1 - k].face];
       if (plate.step || lip.step || !turns_outward(plate.face, edge, fans[k])) continue;
