@@ -478,14 +478,20 @@ std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<Joine
 namespace {
 
 /// Whether the rim of a face turns outward, beyond an edge of it, at an end of this edge.
-bool turns_outward(const TopoDS_Face& face, const TopoDS_Edge& edge, const Fan& fan) {
+bool turns_outward(const TopoDS_Face& face, const TopoDS_Edge& edge) {
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& other = TopoDS::Edge(it.Current());
     TopoDS_Vertex corner;
-    if (it.Current().IsSame(edge) || it.Current().Orientation() == TopAbs_INTERNAL ||
-        !TopExp::CommonVertex(edge, TopoDS::Edge(it.Current()), corner))
+    if (other.IsSame(edge) || other.Orientation() == TopAbs_INTERNAL ||
+        !TopExp::CommonVertex(edge, other, corner))
       continue;
-    const gp_Vec next(BRep_Tool::Pnt(corner), fan_at(TopoDS::Edge(it.Current()), face, 0.5).point);
-    if (next.Dot(fan.away) > 0.5 * next.Magnitude()) return true;
+    const gp_Pnt at = BRep_Tool::Pnt(corner);
+    const auto beside = [&](const TopoDS_Edge& of) {  // at the corner: arcs of a circle go on without one
+      const Fan first = fan_at(of, face, 0.02), last = fan_at(of, face, 0.98);
+      return first.point.Distance(at) < last.point.Distance(at) ? first : last;
+    };
+    const gp_Vec next(at, beside(other).point);
+    if (next.Dot(beside(edge).away) > 0.5 * next.Magnitude()) return true;
   }
   return false;
 }
@@ -506,11 +512,10 @@ InnerCorners inner_corners(const Skin& skin, const std::vector<JoinedFace>& face
       fans[k] = fan_at(TopoDS::Edge(uses.edge(i).Oriented(meeting[k].orientation)),
                        faces[meeting[k].face].face, 0.5);
     if (std::abs(fans[0].normal.Dot(fans[1].normal)) > upright) continue;
-    const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i));
-    if (BRep_Tool::IsClosed(edge)) continue;  // a tube's end, which has no corner
     for (int k = 0; k < 2; ++k) {
+      const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(meeting[k].orientation));
       const JoinedFace &plate = faces[meeting[k].face], &lip = faces[meeting[1 - k].face];
-      if (plate.step || lip.step || !turns_outward(plate.face, edge, fans[k])) continue;
+      if (plate.step || lip.step || !turns_outward(plate.face, edge)) continue;
       const auto across = skin.first_hit(fans[k].point, gp_Dir(fans[k].away.Reversed()));
       if (!across || across->distance > length_of(edge)) continue;
       const double softer = lip.coverage.mean / across->distance;
