@@ -12,14 +12,12 @@
 #include <ShapeAnalysis_Surface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_DataMapOfShapeInteger.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "geometry/midsurface/edge_uses.hpp"
@@ -376,6 +374,25 @@ CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
   return result;
 }
 
+namespace {
+
+/// Unit normal of the surface of a face; none where the surface is singular.
+std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+  gp_Pnt at;
+  gp_Vec du, dv;
+  BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
+}
+
+/// A point well inside a face, if it has area.
+std::optional<FaceSample> inner_sample(const TopoDS_Face& face) {
+  const auto samples = sample_face(face, 16);
+  return samples.empty() ? std::nullopt : std::optional(samples[samples.size() / 2]);
+}
+
+}  // namespace
+
 std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
                                                   const std::vector<JoinedFace>& faces,
                                                   const ExecutionContext& context) {
@@ -386,14 +403,10 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
     if (faces[i].step) continue;
     std::vector<double> told;  // over what the rays measure
     for (const FaceSample& sample : sample_face(faces[i].face, 16)) {
-      const BRepAdaptor_Surface surface(faces[i].face, Standard_False);
-      gp_Pnt at;
-      gp_Vec du, dv;
-      surface.D1(sample.uv.X(), sample.uv.Y(), at, du, dv);
-      const gp_Vec normal = du.Crossed(dv);
-      if (normal.Magnitude() < gp::Resolution()) continue;
-      const auto up = skin.first_hit(sample.point, gp_Dir(normal));
-      const auto down = skin.first_hit(sample.point, gp_Dir(normal.Reversed()));
+      const auto normal = normal_at(faces[i].face, sample.uv);
+      if (!normal) continue;
+      const auto up = skin.first_hit(sample.point, *normal);
+      const auto down = skin.first_hit(sample.point, normal->Reversed());
       if (!up || !down) continue;
       const double here = thickness_at(faces[i].coverage, walls[faces[i].wall], skin, sample.point);
       told.push_back(here / (up->distance + down->distance));
@@ -445,25 +458,71 @@ std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<Joine
         if (goes_on && faces[use.face].wall != own.wall) standing.insert(static_cast<std::size_t>(use.face));
       }
     }
-    const auto samples = sample_face(own.face, 16);
-    if (!enclosed || standing.empty() || samples.empty()) continue;
-    const FaceSample& sample = samples[samples.size() / 2];
-    gp_Pnt at;
-    gp_Vec du, dv;
-    BRepAdaptor_Surface(own.face, Standard_False).D1(sample.uv.X(), sample.uv.Y(), at, du, dv);
-    const gp_Vec normal = du.Crossed(dv);
-    if (normal.Magnitude() < gp::Resolution()) continue;
+    const auto sample = inner_sample(own.face);
+    const auto normal = sample ? normal_at(own.face, sample->uv) : std::nullopt;
+    if (!enclosed || standing.empty() || !normal) continue;
     std::array<bool, 2> on_side{};  // behind, ahead
     for (const std::size_t other : standing) {
-      const auto points = sample_face(faces[other].face, 16);
-      if (!points.empty())
-        on_side[gp_Vec(at, points[points.size() / 2].point).Dot(normal) > 0 ? 1 : 0] = true;
+      const auto there = inner_sample(faces[other].face);
+      if (there) on_side[gp_Vec(sample->point, there->point).Dot(*normal) > 0 ? 1 : 0] = true;
     }
     if (on_side[0] == on_side[1]) continue;
-    const gp_Dir ahead(on_side[0] ? normal : normal.Reversed());
+    const gp_Dir ahead = on_side[0] ? *normal : normal->Reversed();
     constexpr double out = 0.6;  // of the wall, over its thickness
-    if (leads_inside(skin, at.Translated(out * own.coverage.mean * gp_Vec(ahead)), ahead))
+    if (leads_inside(skin, sample->point.Translated(out * own.coverage.mean * gp_Vec(ahead)), ahead))
       result.push_back(i);
+  }
+  return result;
+}
+
+namespace {
+
+/// Whether the rim of a face turns outward, beyond an edge of it, at an end of this edge.
+bool turns_outward(const TopoDS_Face& face, const TopoDS_Edge& edge) {
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& other = TopoDS::Edge(it.Current());
+    TopoDS_Vertex corner;
+    if (other.IsSame(edge) || other.Orientation() == TopAbs_INTERNAL ||
+        !TopExp::CommonVertex(edge, other, corner))
+      continue;
+    const gp_Pnt at = BRep_Tool::Pnt(corner);
+    const auto beside = [&](const TopoDS_Edge& of) {  // at the corner: arcs of a circle go on without one
+      const Fan first = fan_at(of, face, 0.02), last = fan_at(of, face, 0.98);
+      return first.point.Distance(at) < last.point.Distance(at) ? first : last;
+    };
+    const gp_Vec next(at, beside(other).point);
+    if (next.Dot(beside(edge).away) > 0.5 * next.Magnitude()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+InnerCorners inner_corners(const Skin& skin, const std::vector<JoinedFace>& faces) {
+  constexpr double worth_telling = 0.03, upright = 0.5;
+  InnerCorners result;
+  const EdgeUses uses(faces);
+  for (int i = 0; i < uses.count(); ++i) {
+    const std::vector<EdgeUses::Use>& meeting = uses.uses(i);
+    if (meeting.size() != 2 || meeting[0].orientation == TopAbs_INTERNAL ||
+        meeting[1].orientation == TopAbs_INTERNAL)
+      continue;  // the plate goes on beyond the lip
+    std::array<Fan, 2> fans;
+    for (int k = 0; k < 2; ++k)
+      fans[k] = fan_at(TopoDS::Edge(uses.edge(i).Oriented(meeting[k].orientation)),
+                       faces[meeting[k].face].face, 0.5);
+    if (std::abs(fans[0].normal.Dot(fans[1].normal)) > upright) continue;
+    for (int k = 0; k < 2; ++k) {
+      const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(meeting[k].orientation));
+      const JoinedFace &plate = faces[meeting[k].face], &lip = faces[meeting[1 - k].face];
+      if (plate.step || lip.step || !turns_outward(plate.face, edge)) continue;
+      const auto across = skin.first_hit(fans[k].point, gp_Dir(fans[k].away.Reversed()));
+      if (!across || across->distance > length_of(edge)) continue;
+      const double softer = lip.coverage.mean / across->distance;
+      if (softer < worth_telling) continue;
+      result.faces.insert(static_cast<std::size_t>(meeting[k].face));
+      result.softer = std::max(result.softer, softer);
+    }
   }
   return result;
 }

@@ -8,7 +8,6 @@
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <GProp_PrincipalProps.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -310,8 +309,6 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   if (held_closed < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
   if (open.empty() && closed.empty()) return result;
   BOPAlgo_Builder fuse;
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetUseOBB(Standard_True);
   for (const JoinedFace& face : faces) fuse.AddArgument(face.face);
   for (const FilletsByFace* fillets : {&open, &closed}) {
     for (const auto& [face, fillet] : *fillets) {

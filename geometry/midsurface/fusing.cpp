@@ -46,7 +46,16 @@ void under_limit(const ExecutionContext& context,
 }
 
 void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context) {
+  fuse.SetNonDestructive(Standard_True);
+  fuse.SetUseOBB(Standard_True);
   under_limit(context, [&](const Message_ProgressRange& range) { fuse.Perform(range); });
+}
+
+TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face) {
+  if (fuse.Images().IsBound(face)) return fuse.Images().Find(face);
+  TopTools_ListOfShape itself;
+  itself.Append(face);
+  return itself;
 }
 
 }  // namespace quadrille

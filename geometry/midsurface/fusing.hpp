@@ -1,8 +1,9 @@
 #pragma once
-/// OpenCASCADE's long work under a time limit. Internal.
+/// OpenCASCADE's long work under a time limit, and its fuses. Internal.
 
 #include <BOPAlgo_Builder.hxx>
 #include <Message_ProgressRange.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <functional>
 
 #include "geometry/base/execution_context.hpp"
@@ -14,7 +15,10 @@ namespace quadrille {
 void under_limit(const ExecutionContext& context,
                  const std::function<void(const Message_ProgressRange&)>& work);
 
-/// Performs the fuse, which must have its arguments and options, under_limit().
+/// Performs the fuse, which must have its arguments, under_limit(). The arguments stay as they are.
 void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context);
+
+/// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
+TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);
 
 }  // namespace quadrille

@@ -2,7 +2,6 @@
 /// Whether parameters lie in a face, fast also where it has many holes. Internal.
 
 #include <BRepTopAdaptor_FClass2d.hxx>
-#include <Bnd_Box2d.hxx>
 #include <TopAbs_State.hxx>
 #include <TopoDS_Face.hxx>
 #include <array>

@@ -11,7 +11,6 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -41,17 +40,6 @@ TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
   for (const TopoDS_Face& face : faces) builder.Add(result, face);
   return result;
 }
-
-}  // namespace
-
-TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face) {
-  if (fuse.Images().IsBound(face)) return fuse.Images().Find(face);
-  TopTools_ListOfShape itself;
-  itself.Append(face);
-  return itself;
-}
-
-namespace {
 
 /// The pieces, cut at each other.
 struct Images {
@@ -285,29 +273,22 @@ void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>&
   TopoDS_Shell shell;
   const BRep_Builder builder;
   builder.MakeShell(shell);
-  int count = 0;
+  std::vector<JoinedFace> own;
   for (const JoinedFace& face : all) {
     if (face.wall != wall || face.step != steps) continue;
     builder.Add(shell, face.face);
-    ++count;
-  }
-  const auto keep_all = [&] {
-    for (const JoinedFace& face : all) {
-      if (face.wall == wall && face.step == steps) merged.push_back(face);
-    }
-  };
-  if (count < 2) {
-    keep_all();
-    return;
+    own.push_back(face);
   }
   ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
   unify.KeepShapes(kept_edges);
+  bool built = false;
   try {
-    unify.Build();
+    if (own.size() > 1) unify.Build();
+    built = own.size() > 1;
   } catch (const Standard_Failure&) {  // as at some seams; the faces are right as they are
-    keep_all();
-    return;
   }
+  if (!built) merged.insert(merged.end(), own.begin(), own.end());
+  if (!built) return;
   TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
   TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
   for (int i = 1; i <= unified.Extent(); ++i) {
@@ -393,8 +374,6 @@ namespace {
 bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
                  double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
   fuse.Clear();
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetUseOBB(Standard_True);
   fuse.SetFuzzyValue(fuzzy);
   for (const auto& of_wall : pieces) {
     if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));

@@ -1,8 +1,6 @@
 #pragma once
 /// Joins the middle surfaces of walls where they meet. Internal.
 
-#include <BOPAlgo_Builder.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Face.hxx>
 #include <map>
 #include <set>
@@ -28,9 +26,6 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
                                    const std::vector<WallEnd>& ends,
                                    const std::vector<std::vector<TopoDS_Face>>& pieces, double tolerance,
                                    const ExecutionContext& context);
-
-/// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
-TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);
 
 /// Removes edges that lie inside one face and that no other face uses.
 void drop_traces(std::vector<JoinedFace>& faces);

@@ -2,7 +2,6 @@
 
 #include "geometry/midsurface/midsurface.hpp"
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
@@ -10,13 +9,11 @@
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -425,11 +422,8 @@ std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, 
   constexpr std::size_t places_shown = 4;
   std::vector<std::string> places;
   for (const std::vector<int>& faces : result.stray_faces) {
-    std::vector<std::string> names;
-    names.reserve(faces.size());
-    for (const int face : faces) names.push_back(fmt::format("Face{}", face));
-    const std::string place =
-        (names.size() > 1 ? "between " : "at ") + fmt::format("{}", fmt::join(names, " and "));
+    const std::string place = faces.size() > 1 ? fmt::format("between Face{} and Face{}", faces[0], faces[1])
+                                               : "at " + face_names(faces);
     if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
   }
   const std::size_t more = places.size() - std::min(places_shown, places.size());
@@ -494,6 +488,15 @@ std::string hollow_sentence(const std::string& name, const std::vector<int>& num
       name, face_names(numbers));
 }
 
+/// The sentence for plates, by numbers of the result, with lips at inner corners.
+std::string inner_corner_sentence(const std::string& name, const std::vector<int>& numbers, double softer) {
+  return fmt::format(
+      "{}: lips end or turn at inner corners of the result's {}: the solid holds the plate there over the "
+      "thickness of the lip, a shell only along a line, so that arms beside these corners are up to some "
+      "{:.0f} % too soft; compare them with a mesh of the solid",
+      name, face_names(numbers), 100 * softer);
+}
+
 /// Numbers of the faces and edges of the result.
 struct Numbers {
   TopTools_IndexedMapOfShape faces, edges;
@@ -506,10 +509,18 @@ std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& sk
   check_volume(middle, numbers.faces, checked, problems);
   if (middle.fillets.softer > 0) checked.warnings.push_back(left_out_sentence(middle, skin));
   if (!middle.stout.empty()) checked.warnings.push_back(stout_sentence(middle, skin));
-  std::vector<int> hollow;
-  for (const std::size_t face : hollow_joints(skin, middle.faces))
-    hollow.push_back(numbers.faces.FindIndex(middle.faces[face].face));
+  const auto numbers_of_faces = [&](const auto& indices) {
+    std::vector<int> result;
+    for (const std::size_t face : indices) result.push_back(numbers.faces.FindIndex(middle.faces[face].face));
+    sort_unique(result);
+    return result;
+  };
+  const std::vector<int> hollow = numbers_of_faces(hollow_joints(skin, middle.faces));
   if (!hollow.empty()) checked.warnings.push_back(hollow_sentence(middle.name, hollow));
+  const InnerCorners corners = inner_corners(skin, middle.faces);
+  if (!corners.faces.empty())
+    checked.warnings.push_back(
+        inner_corner_sentence(middle.name, numbers_of_faces(corners.faces), corners.softer));
   if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
   if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle, skin));
   return problems;

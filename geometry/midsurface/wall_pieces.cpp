@@ -12,7 +12,6 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -214,15 +213,12 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
                                 const ExecutionContext& context) {
   if (others.empty()) return {face};
   BOPAlgo_Builder cutter;
-  cutter.SetNonDestructive(Standard_True);
-  cutter.SetUseOBB(Standard_True);
   cutter.AddArgument(face);
   for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
   perform(cutter, context);
   if (cutter.HasErrors()) return {};
-  if (!cutter.Images().IsBound(face)) return {face};
   std::vector<TopoDS_Face> result;
-  for (const TopoDS_Shape& piece : cutter.Images().Find(face)) result.push_back(TopoDS::Face(piece));
+  for (const TopoDS_Shape& piece : images(cutter, face)) result.push_back(TopoDS::Face(piece));
   return result;
 }
 

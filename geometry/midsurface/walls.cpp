@@ -3,8 +3,6 @@
 #include "geometry/midsurface/walls.hpp"
 
 #include <GeomLProp_SLProps.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>

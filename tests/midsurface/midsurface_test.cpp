@@ -990,6 +990,23 @@ TEST(MidSurface, TellsWallsThatAreThickerThanWide) {
   EXPECT_FALSE(told(40));
 }
 
+/// A lip along an inner corner, told; one round the outer corner, or a gusset, is as stiff as in the solid.
+TEST(MidSurface, TellsLipsAtInnerCorners) {
+  const auto told = [](const std::vector<TopoDS_Shape>& lips) {
+    std::vector<TopoDS_Shape> parts{block({0, 0, 0}, 140, 60, 3), block({0, 0, 0}, 60, 140, 3)};
+    parts.insert(parts.end(), lips.begin(), lips.end());
+    std::string result;
+    for (const std::string& warning : middle_of(fused(parts)).warnings)
+      if (warning.find("inner corners") != std::string::npos) result += warning;
+    return result;
+  };
+  const TopoDS_Shape along_x = block({57, 57, 2}, 83, 3, 14), along_y = block({57, 57, 2}, 3, 83, 14);
+  for (const std::string& warning : {told({along_x, along_y}), told({along_x})})
+    EXPECT_NE(warning.find("up to some 5 % too soft"), std::string::npos) << warning;
+  EXPECT_EQ(told({block({0, 0, 2}, 140, 3, 14), block({0, 0, 2}, 3, 140, 14)}), "");
+  EXPECT_EQ(told({block({60, 30, 2}, 80, 3, 14)}), "");
+}
+
 TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
   for (const double thickness : {1.0, 2.0, 3.0}) {
     expect_one_part(fused({block({-30, 0, 0}, 60, 2, 120), block({-30, 0, 0}, 2, 40, 120),
