@@ -5,7 +5,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <map>
-#include <set>
 #include <vector>
 
 #include "geometry/midsurface/joining.hpp"
@@ -64,15 +63,5 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
 /// them, on one side, and on the other there is the inside of a section. Between them a solid has the depth
 /// of the joint, a shell has none. The faces must be triangulated.
 std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<JoinedFace>& faces);
-
-/// Plates whose rim turns outward at the end of a lip that stands on it: inner corners.
-struct InnerCorners {
-  std::set<std::size_t> faces{};  ///< indices
-  double softer = 0;  ///< the lip's thickness over the width of the arm along it: about what stiffness lacks
-};
-
-/// The inner corners at which a shell is too soft. The solid holds the plate over the thickness of the lip,
-/// the shell along a line, and it is there that most of what bends an arm in its plane or twists it passes.
-InnerCorners inner_corners(const Skin& skin, const std::vector<JoinedFace>& faces);
 
 }  // namespace quadrille

@@ -63,7 +63,7 @@ struct SolidMiddle {
   std::vector<Wall> walls;
   Fillets fillets;
   CountedTwice twice;
-  std::set<int> stout;  ///< indices of the skin's faces beside walls that are kept though thicker than wide
+  std::set<int> narrow;  ///< indices of the skin's faces beside walls that are not much wider than thick
   double volume = 0;
   std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
 };
@@ -147,6 +147,10 @@ Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::si
   }
   return result;
 }
+
+/// Walls that are so many times as wide as thick make a shell that is within 3 % of the solid:
+/// docs/midsurface.md.
+constexpr double slender = 12;
 
 /// 1 for each face whose connected part is thicker than `thickest` times its width, 0 for others.
 std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
@@ -243,12 +247,16 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
     faces.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
   if (thick_volume <= 0.5 * all && all > 0) {
-    const std::vector<char> stout = find_thick(middle, ends, 1);
-    for (std::size_t i = 0; i < stout.size(); ++i) {
+    const std::vector<char> narrow = find_thick(middle, ends, 1 / slender);
+    double narrow_volume = 0;
+    for (std::size_t i = 0; i < narrow.size(); ++i) {
       const JoinedFace& face = middle.faces[i];
-      if (stout[i] != 0 && !face.step && area_of(face.face) * face.coverage.mean > 0.05 * all)
-        middle.stout.insert(face.coverage.faces.begin(), face.coverage.faces.end());
+      if (narrow[i] == 0 || face.step) continue;
+      narrow_volume += area_of(face.face) * face.coverage.mean;
+      middle.narrow.insert(face.coverage.faces.begin(), face.coverage.faces.end());
     }
+    constexpr double hardly = 0.05;
+    if (narrow_volume <= hardly * all) middle.narrow.clear();
     return;
   }
   middle.faces = std::move(thin);
@@ -472,12 +480,15 @@ std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
       middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer);
 }
 
-/// The sentence for walls, such as beads, that are kept since most of the solid is thin.
-std::string stout_sentence(const SolidMiddle& middle, const Skin& skin) {
+/// The sentence for walls that are narrow for a shell.
+std::string narrow_sentence(const SolidMiddle& middle, const Skin& skin) {
   return fmt::format(
-      "{}: the wall between {} is thicker than wide: a shell can be some 5 % off in stiffness if much of the "
-      "load goes through it; compare it with a mesh of the solid",
-      middle.name, face_names(numbers_of(skin, middle.stout)));
+      "{}: walls are less than {:g} times as wide as thick (between {}): where such walls bend across, or "
+      "the "
+      "section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare it "
+      "with "
+      "a mesh of the solid",
+      middle.name, slender, face_names(numbers_of(skin, middle.narrow)));
 }
 
 /// The sentence for faces, by numbers of the result, where hollow sections meet.
@@ -486,15 +497,6 @@ std::string hollow_sentence(const std::string& name, const std::vector<int>& num
       "{}: hollow sections meet at the result's {}: a shell has no depth there and can be some 15 % too soft "
       "under loads that bend the walls of the joint; compare it with a mesh of the solid",
       name, face_names(numbers));
-}
-
-/// The sentence for plates, by numbers of the result, with lips at inner corners.
-std::string inner_corner_sentence(const std::string& name, const std::vector<int>& numbers, double softer) {
-  return fmt::format(
-      "{}: lips end or turn at inner corners of the result's {}: the solid holds the plate there over the "
-      "thickness of the lip, a shell only along a line, so that arms beside these corners are up to some "
-      "{:.0f} % too soft; compare them with a mesh of the solid",
-      name, face_names(numbers), 100 * softer);
 }
 
 /// Numbers of the faces and edges of the result.
@@ -508,19 +510,11 @@ std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& sk
   std::vector<std::string> problems;
   check_volume(middle, numbers.faces, checked, problems);
   if (middle.fillets.softer > 0) checked.warnings.push_back(left_out_sentence(middle, skin));
-  if (!middle.stout.empty()) checked.warnings.push_back(stout_sentence(middle, skin));
-  const auto numbers_of_faces = [&](const auto& indices) {
-    std::vector<int> result;
-    for (const std::size_t face : indices) result.push_back(numbers.faces.FindIndex(middle.faces[face].face));
-    sort_unique(result);
-    return result;
-  };
-  const std::vector<int> hollow = numbers_of_faces(hollow_joints(skin, middle.faces));
+  if (!middle.narrow.empty()) checked.warnings.push_back(narrow_sentence(middle, skin));
+  std::vector<int> hollow;
+  for (const std::size_t face : hollow_joints(skin, middle.faces))
+    hollow.push_back(numbers.faces.FindIndex(middle.faces[face].face));
   if (!hollow.empty()) checked.warnings.push_back(hollow_sentence(middle.name, hollow));
-  const InnerCorners corners = inner_corners(skin, middle.faces);
-  if (!corners.faces.empty())
-    checked.warnings.push_back(
-        inner_corner_sentence(middle.name, numbers_of_faces(corners.faces), corners.softer));
   if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
   if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle, skin));
   return problems;

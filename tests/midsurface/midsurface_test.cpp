@@ -96,7 +96,7 @@ double area_of(const MidSurface& middle) {
 }
 
 /// The sum is that of the faces, and what counts twice is told where it is more than a fiftieth. The only
-/// other warnings are of fillets.
+/// other warnings are of fillets and narrow walls.
 void expect_told(const MidSurface& middle) {
   double sum = 0;
   for (const MiddleFace& face : middle.faces) sum += face.area * face.thickness;
@@ -104,7 +104,9 @@ void expect_told(const MidSurface& middle) {
   int twice = 0;
   for (const std::string& warning : middle.warnings) {
     const bool told = warning.find("of the volume twice") != std::string::npos;
-    EXPECT_TRUE(told || warning.find("fillets or welds") != std::string::npos) << warning;
+    const bool is_known = warning.find("fillets or welds") != std::string::npos ||
+                          warning.find("times as wide as thick") != std::string::npos;
+    EXPECT_TRUE(told || is_known) << warning;
     twice += told ? 1 : 0;
   }
   EXPECT_EQ(twice, middle.counted_twice > 0.02 * middle.volume ? 1 : 0)
@@ -977,34 +979,18 @@ TEST(MidSurface, EndsFlatGussets) {
   }
 }
 
-/// A bead that is thicker than wide is kept, with a word.
-TEST(MidSurface, TellsWallsThatAreThickerThanWide) {
-  const auto told = [](double high) {
-    const MidSurface middle =
-        middle_of(fused({block({0, 0, 0}, 160, 70, 3), block({0, 0, 0}, 160, 7, high)}));
+/// What is narrow for a shell is kept, with a word: beads, lips, hats of thick sheet.
+TEST(MidSurface, TellsNarrowWalls) {
+  const auto told = [](const std::vector<TopoDS_Shape>& parts) {
+    const MidSurface middle = middle_of(fused(parts));
     return std::any_of(middle.warnings.begin(), middle.warnings.end(), [](const std::string& warning) {
-      return warning.find("is thicker than wide") != std::string::npos;
+      return warning.find("times as wide as thick") != std::string::npos;
     });
   };
-  EXPECT_TRUE(told(8));
-  EXPECT_FALSE(told(40));
-}
-
-/// A lip along an inner corner, told; one round the outer corner, or a gusset, is as stiff as in the solid.
-TEST(MidSurface, TellsLipsAtInnerCorners) {
-  const auto told = [](const std::vector<TopoDS_Shape>& lips) {
-    std::vector<TopoDS_Shape> parts{block({0, 0, 0}, 140, 60, 3), block({0, 0, 0}, 60, 140, 3)};
-    parts.insert(parts.end(), lips.begin(), lips.end());
-    std::string result;
-    for (const std::string& warning : middle_of(fused(parts)).warnings)
-      if (warning.find("inner corners") != std::string::npos) result += warning;
-    return result;
-  };
-  const TopoDS_Shape along_x = block({57, 57, 2}, 83, 3, 14), along_y = block({57, 57, 2}, 3, 83, 14);
-  for (const std::string& warning : {told({along_x, along_y}), told({along_x})})
-    EXPECT_NE(warning.find("up to some 5 % too soft"), std::string::npos) << warning;
-  EXPECT_EQ(told({block({0, 0, 2}, 140, 3, 14), block({0, 0, 2}, 3, 140, 14)}), "");
-  EXPECT_EQ(told({block({60, 30, 2}, 80, 3, 14)}), "");
+  const TopoDS_Shape plate = block({0, 0, 0}, 160, 70, 3);
+  EXPECT_TRUE(told({plate, block({0, 0, 0}, 160, 7, 8)}));
+  EXPECT_TRUE(told({plate, block({0, 67, 0}, 160, 3, 18)}));
+  EXPECT_FALSE(told({plate, block({0, 0, 0}, 160, 3, 45)}));
 }
 
 TEST(MidSurface, EndsBulkheadsFlushWithTheLipsOfAChannel) {
@@ -1278,7 +1264,7 @@ TEST(MidSurface, TellsWhatIsLeftOutOfTheVolume) {
   };
   const MidSurface middle = middle_of(with_stud(20));
   EXPECT_NEAR(middle.counted_twice, 6 * 5 * 200, 1e-3);
-  ASSERT_EQ(middle.warnings.size(), 1U);
+  ASSERT_FALSE(middle.warnings.empty());
   EXPECT_NE(middle.warnings[0].find("97.4 % of its volume; without a partner: Face"), std::string::npos)
       << middle.warnings[0];
   try {
@@ -1357,7 +1343,7 @@ TEST(MidSurface, AddsFilletsToTheThicknessWhereTheyAre) {
   const std::vector<Corner2d> outline = {
       {0, 0}, {75, 0}, {75, 8.5}, {8.5, 13.82, 11.5}, {8.5, 186.18, 11.5}, {75, 191.5}, {75, 200}, {0, 200}};
   const MidSurface middle = middle_of(profile({outline}, 300));
-  EXPECT_TRUE(middle.warnings.empty()) << middle.warnings.front();
+  expect_told(middle);
   EXPECT_NEAR(middle.shell_volume / middle.volume, 1.0135, 0.001) << "the web gets its fillets once more";
   EXPECT_NEAR((middle.shell_volume - middle.counted_twice) / middle.volume, 1, 0.002);
   double thickest = 0;
