@@ -10,6 +10,8 @@
 #include <STEPConstruct.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepData_StepModel.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp.hxx>
@@ -27,22 +29,24 @@ namespace quadrille {
 namespace {
 
 constexpr ReadOptions isolated{true, nullptr};
-const std::string part_name = "L\xc3\xa4ngstr\xc3\xa4ger 1";  // OpenCASCADE adds the number
+const std::string part_name = "L\xc3\xa4ngstr\xc3\xa4ger";
 
 /// Writes a shape whose faces have these names, in the order of its faces.
 void write_named(const TopoDS_Shape& shape, const std::vector<const char*>& names,
                  const std::filesystem::path& file) {
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", "MM");
-  Interface_Static::SetCVal("write.step.product.name", part_name.substr(0, part_name.size() - 2).c_str());
   STEPControl_Writer writer;
   ASSERT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
-  Interface_Static::SetCVal("write.step.product.name", "");
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   for (std::size_t i = 0; i < names.size(); ++i)
     STEPConstruct::FindEntity(writer.WS()->TransferWriter()->FinderProcess(), faces(static_cast<int>(i) + 1))
         ->SetName(new TCollection_HAsciiString(names[i]));
+  const Handle(StepData_StepModel) model = writer.Model();
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto part = Handle(StepBasic_Product)::DownCast(model->Value(i)))
+      part->SetName(new TCollection_HAsciiString(part_name.c_str()));
   ASSERT_EQ(writer.Write(file.c_str()), IFSelect_RetDone);
 }
 
