@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -112,6 +113,10 @@ std::vector<ShellMesh::Group> groups_of_names(const FaceNames& names, const Shel
   return result;
 }
 
+std::ptrdiff_t how_many(const std::vector<int>& faces, const std::set<int>& named) {
+  return std::count_if(faces.begin(), faces.end(), [&](int face) { return named.contains(face); });
+}
+
 /// The names of the middle faces: those of the solid's faces that they lie between, which for a face that
 /// joins the middles of a step must all have the name.
 FaceNames names_of_middle(const MidSurface& middle) {
@@ -119,8 +124,7 @@ FaceNames names_of_middle(const MidSurface& middle) {
   for (const auto& [name, faces] : middle.face_names)
     for (std::size_t i = 0; i < middle.faces.size(); ++i) {
       const std::vector<int>& own = middle.faces[i].solid_faces;
-      const auto named =
-          std::count_if(own.begin(), own.end(), [&](int face) { return faces.contains(face); });
+      const std::ptrdiff_t named = how_many(own, faces);
       if (named > 0 && (!middle.faces[i].step || named == std::ssize(own)))
         result[name].insert(static_cast<int>(i) + 1);
     }
@@ -143,9 +147,7 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle, co
   for (const auto& [name, faces] : middle.face_names) {
     std::vector<int> edges;
     for (const MiddleRim& rim : middle.rims)
-      if (std::any_of(rim.solid_faces.begin(), rim.solid_faces.end(),
-                      [&named = faces](int face) { return named.contains(face); }))
-        edges.push_back(rim.edge);
+      if (how_many(rim.solid_faces, faces) > 0) edges.push_back(rim.edge);
     if (!names.contains(name) && !edges.empty()) result.push_back({name + "Rim", 1, 0, std::move(edges)});
   }
   for (auto& [of, numbers] : found)

@@ -99,7 +99,7 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
   try {
     if (!options.isolated) return build(read(), name);
     const auto read_and_check = [&] {
-      const NamedShape made = read();
+      NamedShape made = read();
       build(made, name);
       return made;
     };
