@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +13,7 @@
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
+#include "geometry/cad/face_names.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/area_check.hpp"
 #include "mesher/shell/assembly.hpp"
@@ -98,9 +101,39 @@ std::vector<int> nodes_of_face(const ShellMesh& mesh, int face) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// Groups of the middle faces and rims that belong to each face of the solid, for loads and supports that
-/// were meant for that face.
-std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
+/// Groups of the faces with names in the CAD file, as far as they have elements.
+std::vector<ShellMesh::Group> groups_of_names(const FaceNames& names, const ShellMesh& mesh) {
+  std::vector<ShellMesh::Group> result;
+  for (const auto& [name, faces] : names) {
+    ShellMesh::Group group{name, 2, 0, {}};
+    std::copy_if(faces.begin(), faces.end(), std::back_inserter(group.entities),
+                 [&](int face) { return mesh.faces[face - 1].quads > 0; });
+    if (!group.entities.empty()) result.push_back(std::move(group));
+  }
+  return result;
+}
+
+std::ptrdiff_t how_many(const std::vector<int>& faces, const std::set<int>& named) {
+  return std::count_if(faces.begin(), faces.end(), [&](int face) { return named.contains(face); });
+}
+
+/// The names of the middle faces: those of the solid's faces that they lie between, which for a face that
+/// joins the middles of a step must all have the name.
+FaceNames names_of_middle(const MidSurface& middle) {
+  FaceNames result;
+  for (const auto& [name, faces] : middle.face_names)
+    for (std::size_t i = 0; i < middle.faces.size(); ++i) {
+      const std::vector<int>& own = middle.faces[i].solid_faces;
+      const std::ptrdiff_t named = how_many(own, faces);
+      if (named > 0 && (!middle.faces[i].step || named == std::ssize(own)))
+        result[name].insert(static_cast<int>(i) + 1);
+    }
+  return result;
+}
+
+/// Groups of the middle faces and rims that belong to the named faces of the solid and to each of its faces,
+/// for loads and supports that were meant for them. A name has rims only if it has no middle faces.
+std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle, const ShellMesh& mesh) {
   std::map<std::pair<bool, int>, std::vector<int>> found;  // whether they are rims, and the solid's face
   for (std::size_t i = 0; i < middle.faces.size(); ++i) {
     if (middle.faces[i].step) continue;  // lies across, between two middle surfaces
@@ -109,8 +142,14 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
   }
   for (const MiddleRim& rim : middle.rims)
     for (const int face : rim.solid_faces) found[{true, face}].push_back(rim.edge);
-  std::vector<ShellMesh::Group> result;
-  result.reserve(found.size());
+  const FaceNames names = names_of_middle(middle);
+  std::vector<ShellMesh::Group> result = groups_of_names(names, mesh);
+  for (const auto& [name, faces] : middle.face_names) {
+    std::vector<int> edges;
+    for (const MiddleRim& rim : middle.rims)
+      if (how_many(rim.solid_faces, faces) > 0) edges.push_back(rim.edge);
+    if (!names.contains(name) && !edges.empty()) result.push_back({name + "Rim", 1, 0, std::move(edges)});
+  }
   for (auto& [of, numbers] : found)
     result.push_back({fmt::format("SolidFace{}{}", of.second, of.first ? "Rim" : ""), of.first ? 1 : 2, 0,
                       std::move(numbers)});
@@ -120,7 +159,10 @@ std::vector<ShellMesh::Group> groups_of_solid_faces(const MidSurface& middle) {
 }  // namespace
 
 ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  return on_threads(context.threads(), [&] { return mesh_whole(model, options, nullptr, context); });
+  ShellMesh result =
+      on_threads(context.threads(), [&] { return mesh_whole(model, options, nullptr, context); });
+  result.extra_groups = groups_of_names(model.face_names(), result);
+  return result;
 }
 
 SmallFeatures small_features(const CadModel& model, const MeshOptions& options, ExecutionContext&) {
@@ -137,7 +179,7 @@ SmallFeatures small_features(const CadModel& model, const MeshOptions& options, 
 ShellMesh mesh(const MidSurface& middle, const MeshOptions& options, ExecutionContext& context) {
   ShellMesh result =
       on_threads(context.threads(), [&] { return mesh_whole(middle.model, options, &middle, context); });
-  result.solid_faces = groups_of_solid_faces(middle);
+  result.extra_groups = groups_of_solid_faces(middle, result);
   for (const MiddleFace& face : middle.faces) {
     result.thicknesses.push_back(face.thickness);
     if (!varies(face) || !middle.thickness_at) continue;

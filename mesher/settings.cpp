@@ -314,6 +314,9 @@ std::vector<Setting> make_table() {
        "type of the quads in .inp files; shell: S4, at second order S8R; for plane and axisymmetric elements "
        "(CPS, CPE, CAX) a plane mesh is turned into the plane z = 0",
        [](Settings& v) -> InpElement& { return v.write.element; }},
+      {"scale", "scale", none, none, write, none, 0, 1e9, true, none,
+       "factor of all lengths in mesh files, such as 0.001 for meters; all other lengths stay in mm",
+       [](Settings& v) -> double& { return v.write.scale; }},
       {"groups", "groups", none, none, write, none, 0, 0, false, none,
        "groups to write, such as faces,edges; lines and points are written only with their groups",
        [](Settings& v) -> GroupKinds& { return v.write.groups; }},

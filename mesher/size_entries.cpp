@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/cad/face_names.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -282,8 +284,7 @@ Entries layers_of(const SizingOptions& sizing) {
 }
 
 void set_nodes(SizingOptions& sizing, const Entries& entries) {
-  static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}"),
-      taken("(Face|Edge|Vertex|SolidFace|Thickness|Match)[0-9].*", std::regex::icase);
+  static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}");
   std::set<std::string> names;
   std::vector<NodePlace> nodes;
   for (const std::string& entry : entries) {
@@ -293,7 +294,7 @@ void set_nodes(SizingOptions& sizing, const Entries& entries) {
         std::string_view(entry).substr(equals == std::string::npos ? 0 : equals + 1);
     const std::vector<double> at = numbers(place);
     if (at.size() != 3) refuse("places such as 10,0,2.5 or Tip=10,0,2.5", entry);
-    if (equals != std::string::npos && (!std::regex_match(name, form) || std::regex_match(name, taken)))
+    if (equals != std::string::npos && (!std::regex_match(name, form) || is_own_group(name)))
       refuse("names of letters, digits, _ and - that no other group can have", name);
     std::string low = name;
     std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });

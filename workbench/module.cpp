@@ -304,6 +304,8 @@ void bind_model(py::module_& module) {
           "area", [](const CadModel& model) { return model.area(); }, "Sum of the face areas, in mm^2.")
       .def_property_readonly("problems", &CadModel::problems,
                              "Problems noticed while reading, one sentence each.")
+      .def_property_readonly("face_names", &CadModel::face_names,
+                             "Names in a STEP file, and the numbers of the faces that have each.")
       .def_property_readonly("pieces", &CadModel::pieces,
                              "After read(imprint=True): for each face of the file, the numbers of the faces "
                              "that it became.")
@@ -352,7 +354,7 @@ void bind_mesh(py::module_& module) {
           },
           py::arg("path"), py::kw_only(), py::arg("title") = "",
           documented("write(self, path, *, title=''" + settings_signature(Setting::Use::write) + ")",
-                     "Writes the mesh, lengths in mm; the format follows from the ending: " +
+                     "Writes the mesh, lengths in mm times `scale`; the format follows from the ending: " +
                          written_endings("or") + ".\n\n" + settings_help(Setting::Use::write))
               .c_str())
       .def(

@@ -238,8 +238,8 @@ std::vector<ShellMesh::Match> matches_in(const py::handle& state) {
   return result;
 }
 
-/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, solid faces, placed
-/// nodes, the minimum size, and matches.
+/// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, extra groups,
+/// placed nodes, the minimum size, and matches.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
@@ -256,7 +256,7 @@ py::tuple state_of(const py::object& self) {
   return py::make_tuple(self.attr("points"), self.attr("quads"), self.attr("triangles"),
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
                         self.attr("corners"), faces, mesh_of(self).mesh.thicknesses,
-                        list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.solid_faces),
+                        list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.extra_groups),
                         placed, mesh_of(self).mesh.size_min, state_of_matches(mesh_of(self).mesh));
 }
 
@@ -274,7 +274,7 @@ PythonMesh from_state(const py::tuple& state) {
   result.mesh.matches = matches_in(state[14]);
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
   result.mesh.groups = groups_in(state[9]);
-  result.mesh.solid_faces = groups_in(state[11]);
+  result.mesh.extra_groups = groups_in(state[11]);
   for (const py::handle entry : state[12]) {
     auto [name, vertex, added] = entry.cast<std::tuple<std::string, int, bool>>();
     result.mesh.placed_nodes.push_back({std::move(name), vertex, added});

@@ -40,12 +40,12 @@ void silence_opencascade() {
 }
 
 /// \param prefix of the module that reads the format.
-TopoDS_Shape read_exchange(const std::filesystem::path& path, const std::string& prefix) {
+NamedShape read_exchange(const std::filesystem::path& path, const std::string& prefix) {
   const Module module(prefix);
-  TopoDS_Shape shape;
-  const std::string problem = module.function<ExchangeReadFunction>("_read")(path.string(), shape);
+  NamedShape read;
+  const std::string problem = module.function<ExchangeReadFunction>("_read")(path.string(), read);
   if (!problem.empty()) throw failure(path.string(), problem);
-  return shape;
+  return {read.shape, names_of_groups(read.names)};
 }
 
 /// Whether the stream begins as a BREP file does. OpenCASCADE would print to standard output if it did not.
@@ -79,9 +79,10 @@ TopoDS_Shape read_brep(std::istream& stream, const std::string& name) {
 /// Millimeters, about a light hour. The costs of elements are kept in single precision.
 constexpr double largest_diagonal = 1e15;
 
-CadModel build(const TopoDS_Shape& shape, const std::string& name) {
-  if (shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
-  auto result = std::make_shared<CadShape>(shape, name);
+CadModel build(const NamedShape& read, const std::string& name) {
+  if (read.shape.IsNull()) throw failure(name, fmt::format("{} holds no shape", name));
+  auto result = std::make_shared<CadShape>(read.shape, name);
+  result->face_names = read.names;
   if (result->faces.empty()) throw failure(name, fmt::format("{} has no face to mesh", name));
   if (!(result->diagonal() > 0) || !(result->diagonal() < largest_diagonal)) {
     throw failure(name,
@@ -98,9 +99,9 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
   try {
     if (!options.isolated) return build(read(), name);
     const auto read_and_check = [&] {
-      const TopoDS_Shape shape = read();
-      build(shape, name);
-      return shape;
+      NamedShape made = read();
+      build(made, name);
+      return made;
     };
     return build(read_isolated(name, read_and_check, options.context, options.time_limit, 0, task), name);
   } catch (const Standard_Failure& problem) {
@@ -203,6 +204,7 @@ CadModel CadModel::sewn(double tolerance) const {
     result->problems.push_back(fmt::format("{} edges were joined to others by sewing", made.joined));
     tell(made.orientation, result->problems);
     keep_pieces(*result, shape_->face_pieces);
+    result->face_names = shape_->face_names;
     if (!shape_->face_pieces.empty())
       for (const std::string& told : shape_->problems)
         if (std::find(result->problems.begin(), result->problems.end(), told) == result->problems.end())
@@ -223,6 +225,9 @@ CadModel CadModel::imprinted(double tolerance) const {
   try {
     Imprint made = imprint(shape_->shape, tolerance);
     auto result = std::make_shared<CadShape>(made.shape, name);
+    for (const auto& [text, faces] : shape_->face_names)
+      for (const int face : faces)
+        result->face_names[text].insert(made.pieces[face - 1].begin(), made.pieces[face - 1].end());
     keep_pieces(*result, std::move(made.pieces));
     tell(made.orientation, result->problems);
     result->edge_pieces = std::move(made.edge_pieces);
@@ -261,6 +266,9 @@ Vector3 CadModel::box_max() const {
 }
 const std::vector<std::string>& CadModel::problems() const {
   return shape_->problems;
+}
+const std::map<std::string, std::set<int>>& CadModel::face_names() const {
+  return shape_->face_names;
 }
 const std::vector<std::vector<int>>& CadModel::pieces() const {
   return shape_->face_pieces;

@@ -2,7 +2,9 @@
 /// The CAD model: faces, edges and vertices numbered as FreeCAD numbers them.
 
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -68,6 +70,9 @@ class QUADRILLE_API CadModel {
   double area(const ExecutionContext& context = {}) const;
   /// Problems found while reading (missing curves or seams, loose vertices, ...), one sentence each.
   const std::vector<std::string>& problems() const;
+  /// The numbers of the faces that have a name in a STEP file: that of the face, its solid or its part. Names
+  /// that say nothing are left out. Faces with one name are together.
+  const std::map<std::string, std::set<int>>& face_names() const;
   /// For an imprinted model: the numbers of the faces that each face of the original model became, ascending,
   /// by its number minus 1. Faces of different parts may have become the same face. Empty for other models.
   const std::vector<std::vector<int>>& pieces() const;

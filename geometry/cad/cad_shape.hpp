@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry/base/vector.hpp"
+#include "geometry/cad/face_names.hpp"
 #include "geometry/cad/ids.hpp"
 
 namespace quadrille {
@@ -98,6 +99,7 @@ class CadShape {
   IdVector<VertexId, Vector3> vertices;
   IdVector<VertexId, double> vertex_tolerances;
   int solids = 0, shells = 0;
+  FaceNames face_names;  ///< see CadModel::face_names()
   /// See CadModel::pieces(), edge_pieces(), vertex_pieces().
   std::vector<std::vector<int>> face_pieces, edge_pieces, vertex_pieces;
   Vector3 box_min, box_max;

@@ -1,9 +1,11 @@
-/// The child sends the shape that it read in OpenCASCADE's binary format; crashes and delays become errors.
+/// The child sends the names of faces and the shape, in OpenCASCADE's binary format; crashes and delays
+/// become errors.
 
 #include "geometry/cad/isolated_reading.hpp"
 
 #include <BinTools.hxx>
 #include <Standard_Failure.hxx>
+#include <iomanip>
 
 #include <fmt/format.h>
 
@@ -15,12 +17,31 @@ namespace quadrille {
 
 namespace {
 
-void send(const std::string& name, const std::function<TopoDS_Shape()>& read, std::ostream& out) {
+void send(const std::string& name, const std::function<NamedShape()>& read, std::ostream& out) {
   try {
-    BinTools::Write(read(), out);
+    const NamedShape made = read();
+    for (const auto& [text, faces] : made.names) {
+      out << std::quoted(text);
+      for (const int face : faces) out << ' ' << face;
+      out << '\n';
+    }
+    out << '\n';
+    BinTools::Write(made.shape, out);
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
   }
+}
+
+NamedShape receive(std::istream& in) {
+  NamedShape result;
+  for (std::string line; std::getline(in, line) && !line.empty();) {
+    std::istringstream words(line);
+    std::string text;
+    words >> std::quoted(text);
+    for (int face = 0; words >> face;) result.names[text].insert(face);
+  }
+  BinTools::Read(result.shape, in);
+  return result;
 }
 
 }  // namespace
@@ -31,9 +52,9 @@ std::string reading_too_long(const std::string& name, double time_limit) {
       time_limit);
 }
 
-TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_Shape()>& read,
-                           ExecutionContext* context, double time_limit, std::size_t memory,
-                           const IsolatedTask& task) {
+NamedShape read_isolated(const std::string& name, const std::function<NamedShape()>& read,
+                         ExecutionContext* context, double time_limit, std::size_t memory,
+                         const IsolatedTask& task) {
   IsolatedWork options;
   options.subject = name;
   options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
@@ -43,14 +64,17 @@ TopoDS_Shape read_isolated(const std::string& name, const std::function<TopoDS_S
   options.context = context;
   options.task = task;
   const auto work = [&](std::ostream& out) { send(name, read, out); };
-  TopoDS_Shape shape;
-  run_isolated(options, work, [&](std::istream& in) { BinTools::Read(shape, in); });
-  return shape;
+  NamedShape result;
+  run_isolated(options, work, [&](std::istream& in) { result = receive(in); });
+  return result;
 }
 
 void send_shape(const std::filesystem::path& path, std::ostream& out) {
-  send(
-      path.string(), [&] { return CadModel::read(path).shape().shape; }, out);
+  const auto read = [&] {
+    const CadModel model = CadModel::read(path);
+    return NamedShape(model.shape().shape, model.face_names());
+  };
+  send(path.string(), read, out);
 }
 
 }  // namespace quadrille

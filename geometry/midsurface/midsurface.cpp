@@ -674,6 +674,7 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
   if (all.empty())
     throw failure(name, problems.empty() ? not_thin_sentence(name, options) : problems.front());
   MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
+  result.face_names = model.face_names();
   check_solids(middles, *skins, options, context, result);
   for (const SolidMiddle& middle : middles) {
     if (middle.faces.empty() && middle.problems.empty())

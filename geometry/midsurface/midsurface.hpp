@@ -2,6 +2,8 @@
 /// Turns thin solids into shells: the middle surface of a solid, with its thickness.
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,8 +59,9 @@ struct MidSurface {
   CadModel model;                   ///< the middle surfaces; their faces share edges where they meet
   std::vector<MiddleFace> faces{};  ///< by face number minus 1
   std::vector<MiddleRim> rims{};    ///< the free edges that lie on the skin, ascending
-  double volume = 0;                ///< volume of the solids
-  double shell_volume = 0;          ///< sum of area times mean thickness over all faces
+  std::map<std::string, std::set<int>> face_names{};  ///< of the solid's faces, see CadModel::face_names()
+  double volume = 0;                                  ///< volume of the solids
+  double shell_volume = 0;                            ///< sum of area times mean thickness over all faces
   /// What of shell_volume is counted twice: where walls meet, if it compensates for no fillet there; in
   /// fillets that are thickness of more than one wall; and in the faces that join the walls of a step.
   double counted_twice = 0;

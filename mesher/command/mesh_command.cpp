@@ -232,7 +232,8 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (!sentence.empty()) warnings.push_back(with_options(sentence));
   if (!measured.bad_skins.empty()) warnings.push_back(bad_skins_sentence(measured.bad_skins));
   if (!arguments.report.empty()) {
-    nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings);
+    nlohmann::json report = make_report(result, measured.elements, context, arguments.input, warnings,
+                                        arguments.settings.write.scale);
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     if (meshed.middle) report["skins"] = {{"turned_over", names("Face", measured.bad_skins)}};

@@ -70,7 +70,9 @@ void run(const RecombineArguments& arguments) {
   }
   const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
-    write_report(make_report(result, measures, context, arguments.input, notes), arguments.report);
+    write_report(make_report(result, measures, context, arguments.input, notes,
+                             arguments.options.settings.write.scale),
+                 arguments.report);
   for (const std::string& note : notes) say("{}: {}", name, note);
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
@@ -98,7 +100,7 @@ void add_recombine_command(CLI::App& app) {
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "on their common side is kept as an edge; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  add_settings(*command, arguments->options, {"threads", "msh_version", "element", "groups"});
+  add_settings(*command, arguments->options, {"threads", "msh_version", "element", "scale", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
   command->callback([arguments] { run(*arguments); });
 }

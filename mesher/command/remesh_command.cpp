@@ -66,7 +66,8 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
   if (arguments.quiet && arguments.report.empty()) return;
   const MeshMeasures measures = on_threads(arguments.settings.threads, [&] { return measure(mesh); });
   if (!arguments.report.empty()) {
-    nlohmann::json report = make_report(mesh, measures, context, arguments.input, notes);
+    nlohmann::json report =
+        make_report(mesh, measures, context, arguments.input, notes, arguments.settings.write.scale);
     report["fidelity"] = fidelity_json(fidelity);
     write_report(report, arguments.report);
   }
@@ -123,9 +124,9 @@ void add_remesh_command(CLI::App& app) {
                    "mesh file: " + written_endings("or") + "; may be given more than once")
       ->required()
       ->allow_extra_args(false);
-  add_settings(
-      *command, *arguments,
-      {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "element", "groups"});
+  add_settings(*command, *arguments,
+               {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "element", "scale",
+                "groups"});
   command->get_option("--size")->required()->description("target edge length, in mm");
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "on they belong to different faces; 0 = faces do not depend on angles");

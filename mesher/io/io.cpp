@@ -36,7 +36,10 @@ void as_text(const Writing& writing, AtomicFile& file) {
 }
 
 void write_med(const Writing& writing, AtomicFile& file) {
-  file.write(med_file(writing.output, printable(writing.path.stem().string(), "?"), writing.options.title));
+  const double scale = writing.options.scale;
+  const char* unit = scale == 1 ? "mm" : scale == 0.001 ? "m" : "";
+  file.write(
+      med_file(writing.output, printable(writing.path.stem().string(), "?"), writing.options.title, unit));
 }
 
 void write_vtu(const Writing& writing, AtomicFile& file) {
@@ -100,6 +103,22 @@ const Format& written_format(const std::filesystem::path& path) {
     throw usage_error(path.string(), fmt::format("{}: unknown mesh format (known are {})", path.string(),
                                                  written_endings("and")));
   return *format;
+}
+
+/// The mesh with all lengths that files contain multiplied by a factor.
+ShellMesh scaled(ShellMesh mesh, double factor) {
+  for (Vector3& point : mesh.points) point *= factor;
+  for (double& thickness : mesh.thicknesses) thickness *= factor;
+  for (ShellMesh::VaryingThickness& varying : mesh.varying_thicknesses) {
+    varying.thinnest *= factor;
+    varying.thickest *= factor;
+    for (double& thickness : varying.thicknesses) thickness *= factor;
+  }
+  for (ShellMesh::Match& match : mesh.matches) {
+    match.motion.translation *= factor;
+    match.motion.center *= factor;
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -175,8 +194,14 @@ void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path, const 
   WriteOptions titled = options;
   // Solvers would take the text after a line break in the title for a keyword.
   titled.title = options.title.empty() ? "Quadrille mesh" : printable(options.title, "?");
-  written_format(path).write({mesh, OutputMesh(mesh, options.groups, options.quad_nodes), path, titled},
-                             file);
+  const auto write = [&](const ShellMesh& lengths) {
+    written_format(path).write(
+        {lengths, OutputMesh(lengths, options.groups, options.quad_nodes), path, titled}, file);
+  };
+  if (options.scale == 1)
+    write(mesh);
+  else
+    write(scaled(mesh, options.scale));
   file.commit();
 }
 

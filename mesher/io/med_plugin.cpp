@@ -68,19 +68,19 @@ class MedWriter {
   MedWriter(med_idt file, const OutputMesh& mesh, const std::string& name)
       : file_(file), mesh_(mesh), name_(name.substr(0, MED_NAME_SIZE)) {}
 
-  void write(const std::string& description) const {
-    make_mesh(description.substr(0, MED_COMMENT_SIZE));
+  void write(const std::string& description, const std::string& unit) const {
+    make_mesh(description.substr(0, MED_COMMENT_SIZE), unit);
     const Families families = make_families();
     write_nodes(families[0]);
     for (const int dimension : {1, 2}) write_elements(dimension, families[dimension]);
   }
 
  private:
-  void make_mesh(const std::string& description) const {
+  void make_mesh(const std::string& description, const std::string& unit) const {
     std::string axes(3 * MED_SNAME_SIZE, ' '), units(3 * MED_SNAME_SIZE, ' ');
     for (int i = 0; i < 3; ++i) {
       axes.replace(i * MED_SNAME_SIZE, 1, 1, static_cast<char>('x' + i));
-      units.replace(i * MED_SNAME_SIZE, 2, "mm");
+      units.replace(i * MED_SNAME_SIZE, unit.size(), unit);
     }
     check(MEDmeshCr(file_, name_.c_str(), 3, 3, MED_UNSTRUCTURED_MESH, description.c_str(), "", MED_SORT_DTIT,
                     MED_CARTESIAN, axes.c_str(), units.c_str()),
@@ -186,9 +186,10 @@ QUADRILLE_EXPORT const char* quadrille_med_version() {
 }
 
 QUADRILLE_EXPORT std::string quadrille_med_file(const quadrille::OutputMesh& mesh, const std::string& name,
-                                                const std::string& description, std::string& bytes) try {
+                                                const std::string& description, const std::string& unit,
+                                                std::string& bytes) try {
   quadrille::MemoryFile file;
-  quadrille::MedWriter(file.id(), mesh, name).write(description);
+  quadrille::MedWriter(file.id(), mesh, name).write(description, unit);
   bytes = file.close();
   return {};
 } catch (const std::exception& error) {

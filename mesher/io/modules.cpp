@@ -38,15 +38,17 @@ void open_med_module() noexcept {
   }
 }
 
-std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description) {
+std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description,
+                     const std::string& unit) {
   module_of(Library::med, ".med");  // opened here, not in the child
   IsolatedWork options;
   options.subject = name;
   options.crashed = name + ".med: libmed crashed while writing the mesh, probably out of memory";
   // libmed prints lines of its own when it fails; the output of a child process is not shown.
-  constexpr ModuleFunction<std::string, const OutputMesh&, const std::string&, const std::string&> write{
-      Library::med, "_file", ".med"};
-  return isolated_bytes(options, [&] { return write(mesh, name, description); });
+  constexpr ModuleFunction<std::string, const OutputMesh&, const std::string&, const std::string&,
+                           const std::string&>
+      write{Library::med, "_file", ".med"};
+  return isolated_bytes(options, [&] { return write(mesh, name, description, unit); });
 }
 
 }  // namespace quadrille

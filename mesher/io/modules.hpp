@@ -89,7 +89,8 @@ void open_med_module() noexcept;
 
 /// The bytes of a .med file.
 /// \param name name of the mesh in the file. FreeCAD reads only a mesh with the same name as its file,
-/// without the ending. Throws Error (failure).
-std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description);
+/// without the ending. \param unit of its coordinates, as text. Throws Error (failure).
+std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description,
+                     const std::string& unit);
 
 }  // namespace quadrille

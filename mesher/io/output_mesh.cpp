@@ -66,7 +66,7 @@ void OutputMesh::name_groups(int dimension) {
     for (const ShellMesh::PlacedNode& node : mesh_.placed_nodes)
       if (dimension == 0 && node.vertex > 0)
         named.push_back({node.name, true, 0, {node.vertex}, added.erase(node.vertex) == 0});
-    for (const ShellMesh::Group& group : mesh_.solid_faces)
+    for (const ShellMesh::Group& group : mesh_.extra_groups)
       if (group.dimension == dimension) named.push_back({group.name, true, 0, group.entities, true});
     return;
   }

@@ -104,7 +104,7 @@ void check_plane(const ShellMesh& mesh, const Frame& frame, double tolerance, co
   throw usage_error(
       "element",
       fmt::format("{} needs a mesh in one plane, and Face{} leaves the plane that fits "
-                  "best by {:.3g} mm: mesh only faces in one plane (`faces`), or choose a shell or membrane",
+                  "best by {:.3g}: mesh only faces in one plane (`faces`), or choose a shell or membrane",
                   subject, face, farthest));
 }
 

@@ -180,6 +180,15 @@ json placed_to_json(const ShellMesh& mesh) {
   });
 }
 
+/// The groups with names of the CAD file or of a solid's faces.
+json extra_groups_to_json(const ShellMesh& mesh) {
+  return listed(mesh.extra_groups, [](const ShellMesh::Group& group) {
+    return json{{"name", group.name}, {"entities", listed(group.entities, [&](int number) {
+                                         return name_of_entity(group.dimension, number);
+                                       })}};
+  });
+}
+
 /// The motion of each pair, and its nodes by their numbers in mesh files.
 json matches_to_json(const ShellMesh& mesh) {
   return listed(mesh.matches, [](const ShellMesh::Match& match) {
@@ -256,10 +265,11 @@ MeshMeasures measure(const ShellMesh& mesh) {
 }
 
 json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const ExecutionContext& context,
-                 const std::filesystem::path& input, const std::vector<std::string>& warnings) {
+                 const std::filesystem::path& input, const std::vector<std::string>& warnings, double scale) {
   const ProcessUsage usage = process_usage();
   const QualitySummary& summary = measures.quality;
   return {{"input", input.string()},
+          {"scale", scale},
           {"order", mesh.order},
           {"counts", {{"nodes", summary.nodes}, {"quads", summary.quads}, {"triangles", summary.triangles}}},
           {"quality", quality_to_json(summary)},
@@ -273,6 +283,7 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"kept", kept_to_json(mesh)},
           {"filled_holes", filled_holes_to_json(mesh)},
           {"crossed_edges", crossed_to_json(mesh)},
+          {"groups", extra_groups_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
           {"matches", matches_to_json(mesh)},
           {"poor_quads", poor_quads_to_json(mesh)},

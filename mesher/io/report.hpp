@@ -25,11 +25,12 @@ MeshMeasures measure(const ShellMesh& mesh);
 /// and face, and the worst), seconds by stage, cpu_seconds and peak_bytes of the process, faces (name,
 /// status, quads, q_min, note, off_geometry: how many of its nodes are off the geometry, and how
 /// far), off_geometry (node, distance) for all of them, suppressed_features, filled_holes, crossed_edges
-/// (name, faces, the distance of the quads that cross it, a line to draw it by), matches, warnings, versions
-/// of the libraries.
+/// (name, faces, the distance of the quads that cross it, a line to draw it by), groups with names of the CAD
+/// file, matches, warnings, versions of the libraries. \param scale see WriteOptions; lengths in the report
+/// are millimeters.
 nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
-                           const std::vector<std::string>& warnings = {});
+                           const std::vector<std::string>& warnings = {}, double scale = 1);
 
 /// Writes a report to a file that appears whole or not at all. Throws Error (failure).
 void write_report(const nlohmann::json& report, const std::filesystem::path& path);

@@ -213,9 +213,9 @@ struct ShellMesh {
   std::vector<double> thicknesses;
   /// The faces whose thickness varies, ascending. `thicknesses` holds the mean of each such face.
   std::vector<VaryingThickness> varying_thicknesses;
-  /// For middle surfaces: one group for each face of the solid, with the faces of the middle surface that
-  /// belong to it, and one with the free edges on it. Formats with groups get them besides those of entities.
-  std::vector<Group> solid_faces;
+  /// Groups that files get besides those of entities: the faces with one name in the CAD file; for middle
+  /// surfaces, those that belong to each face of the solid, and the free edges on it.
+  std::vector<Group> extra_groups;
 };
 
 }  // namespace quadrille

@@ -378,7 +378,7 @@ TEST(Writers, InpNumbersFitWhatCalculixReads) {
 TEST(Writers, InpHasSurfacesOfSetsWithElementsOnly) {
   const TemporaryFolder folder;
   ShellMesh mesh = ShellGrid(2, 1).mesh();
-  mesh.solid_faces = {{"SolidFace1", 2, 0, {1}}, {"SolidFace2", 2, 0, {9}}};
+  mesh.extra_groups = {{"SolidFace1", 2, 0, {1}}, {"SolidFace2", 2, 0, {9}}};
   write_mesh(mesh, folder / "a.inp");
   const std::string text = test::file_text(folder / "a.inp");
   EXPECT_TRUE(contains(text, "*SURFACE, NAME=Surface_SolidFace1, TYPE=ELEMENT\nSolidFace1, SPOS\n"));

@@ -239,10 +239,13 @@ class PackageTest(unittest.TestCase):
             self.assertIn('"Face1"', text)
             self.assertNotIn('"Edge1"', text)
             self.assertIn(f"\n{len(mesh.points) + len(mesh.quads)}\n", text)
-            for wrong in ({"groups": ["sides"]}, {"groups": "faces"}, {"nodes": 7}, {"msh_version": "3"}, {"element": "S9"}):
+            for wrong in ({"groups": ["sides"]}, {"groups": "faces"}, {"nodes": 7}, {"msh_version": "3"}, {"element": "S9"}, {"scale": 0}):
                 with self.assertRaises(quadrille.Error) as caught:
                     mesh.write(path, **wrong)
                 self.assertEqual(caught.exception.kind, "usage")
+            mesh.write(path, scale=0.001)
+            meters = quadrille.read_mesh(path).points
+            np.testing.assert_allclose(np.ptp(meters, axis=0), 0.001 * np.ptp(mesh.points, axis=0), rtol=1e-12)
             with self.assertRaisesRegex(quadrille.Error, "element CPS4 needs order 1, not 2"):
                 mesh.write(Path(folder) / "a.inp", element="CPS4")
             mesh.write(Path(folder) / "a.inp", element="M3D8R")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from os import PathLike
-from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, SupportsIndex, Tuple, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Set, SupportsIndex, Tuple, Union
 
 from numpy import float64, int32
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,7 @@ class Model:
     diagonal: float
     area: float
     problems: List[str]
+    face_names: Dict[str, Set[int]]
     pieces: List[List[int]]
     box: Tuple[List[float], List[float]]
 
@@ -60,6 +61,7 @@ class Mesh:
         msh_version: Optional[str] = None,
         nodes: Optional[int] = None,
         element: Optional[str] = None,
+        scale: Optional[float] = None,
         groups: Optional[Sequence[str]] = None,
     ) -> None: ...
     def picture(self, path: _Path, *, width: int = 1600, height: int = 1200) -> None: ...

@@ -8,6 +8,7 @@ QUADRILLE_EXPORT const char* quadrille_iges_version() {
   return QUADRILLE_VERSION;
 }
 
-QUADRILLE_EXPORT std::string quadrille_iges_read(const std::string& path, TopoDS_Shape& shape) {
-  return quadrille::transfer<IGESControl_Reader>(path, "IGES", shape);
+QUADRILLE_EXPORT std::string quadrille_iges_read(const std::string& path, quadrille::NamedShape& read) {
+  return quadrille::transfer<IGESControl_Reader>(path, "IGES", read,
+                                                 [](const auto&...) { return quadrille::FaceNames(); });
 }

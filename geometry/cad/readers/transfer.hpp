@@ -27,6 +27,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/module_loader.hpp"
+#include "geometry/cad/face_names.hpp"
 
 namespace quadrille {
 
@@ -115,25 +116,27 @@ inline bool has_faces_that_touch_beside_seam(const TopoDS_Shape& shape) {
   return false;
 }
 
-/// \returns whether the file is readable.
-template <class Reader>
-bool read_file(const std::string& path, bool with_loops, TopoDS_Shape& shape) {
+/// \param names_of(reader, shape) the names of its faces. \returns whether the file is readable.
+template <class Reader, class NamesOf>
+bool read_file(const std::string& path, bool with_loops, NamedShape& read, NamesOf names_of) {
   Reader reader;  // defines the settings
   const HealingScope healing(with_loops);
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) return false;
   reader.TransferRoots();
-  shape = reader.OneShape();
+  read.shape = reader.OneShape();
+  read.names = names_of(reader, read.shape);
   return true;
 }
 
 /// Reads a file. Where healing may give another shape in every run, reads it again without that healing.
 /// \returns an empty string, or a sentence that says what went wrong.
-template <class Reader>
-std::string transfer(const std::string& path, const char* format, TopoDS_Shape& shape) {
+template <class Reader, class NamesOf>
+std::string transfer(const std::string& path, const char* format, NamedShape& read, NamesOf names_of) {
   try {
-    bool readable = read_file<Reader>(path, true, shape);
-    if (readable && has_faces_that_touch_beside_seam(shape)) readable = read_file<Reader>(path, false, shape);
+    bool readable = read_file<Reader>(path, true, read, names_of);
+    if (readable && has_faces_that_touch_beside_seam(read.shape))
+      readable = read_file<Reader>(path, false, read, names_of);
     return readable ? std::string() : fmt::format("{} is not a readable {} file", path, format);
   } catch (const Standard_Failure& problem) {
     return fmt::format("{} could not be read as {} ({})", path, format, problem.GetMessageString());
