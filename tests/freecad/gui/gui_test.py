@@ -409,6 +409,12 @@ class GuiTest(GuiCase):
                     self.assertEqual("not meshed: Solid2" in asked[0], is_hidden)
                     self.press_mesh()
                     self.assertEqual(checklist.pieces(mesh.FemMesh), pieces)
+                    # A group for each object: joined boxes share the face between them.
+                    groups = {mesh.FemMesh.getGroupName(i): set(mesh.FemMesh.getGroupElements(i)) for i in mesh.FemMesh.Groups}
+                    labels = [child.Label for child in (part.Group if part == container else part.Links)][:2]
+                    one, other = (groups[f"{label}_Faces"] for label in labels)
+                    self.assertEqual(len(one), len(other))
+                    self.assertEqual(bool(one & other), answer)
                     close_panel(QtGui.QDialogButtonBox.Cancel)
         container.Group[-2].Placement.Base.x = 15
         self.document.recompute()

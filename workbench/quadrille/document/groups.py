@@ -12,7 +12,7 @@ import FreeCAD
 
 from ..core import observers
 from ..core.errors import Error
-from . import links, shapes, undo
+from . import containers, links, shapes, undo
 
 _KINDS = {"Face": "Face", "Edge": "Edge", "Vertex": "Node"}
 #: {(group name, element type): ids}
@@ -54,20 +54,20 @@ def refresh(mesh) -> bool:
 
 
 def wanted_groups(mesh, fem_mesh) -> Groups:
-    """The groups for constraints and mesh groups: `<Name>_Nodes` of nodes, `<Name>_Faces` and `<Name>_Edges` of elements."""
-    sources = [(member.Name, member) for member in _members(mesh)]
-    for group in mesh.MeshGroupList:
-        sources.append((group.Label if group.UseLabel else group.Name, group))
+    """The groups for constraints, mesh groups and the objects in a container: `<Name>_Nodes` of nodes, `<Name>_Faces` and
+    `<Name>_Edges` of elements."""
+    sources = containers.faces_by_part(mesh.Shape)
+    for name, source in [(member.Name, member) for member in _members(mesh)] + [
+            (group.Label if group.UseLabel else group.Name, group) for group in mesh.MeshGroupList]:
+        try:
+            sources[name] = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References)
+        except Error as error:
+            FreeCAD.Console.PrintWarning(f"{mesh.Label}: no group for {source.Label}: {error}\n")
     if not sources:
         return {}
     part_groups = PartGroups(fem_mesh)
     wanted: Groups = {}
-    for name, source in sources:
-        try:
-            elements = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References)
-        except Error as error:
-            FreeCAD.Console.PrintWarning(f"{mesh.Label}: no group for {source.Label}: {error}\n")
-            continue
+    for name, elements in sources.items():
         nodes: Set[int] = set()
         members: Dict[str, Set[int]] = {}
         for element in elements:
