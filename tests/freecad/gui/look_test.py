@@ -129,6 +129,25 @@ class LookTest(GuiCase):
         hint = panel.form.findChild(QtGui.QLabel, "QuadrilleThinHint")
         self.assertEqual(QtGui.QColor(hint.text().split("color: ")[1][:7]).lightness() > 128, is_dark, "the link")
 
+    def test_its_ground_is_dark_under_a_dark_palette(self):
+        app = QtGui.QApplication.instance()
+        light = app.palette()
+        self.addCleanup(lambda: app.setPalette(light))
+        app.setPalette(dark())
+        mesh = self.meshed_part()
+        mesh.SizeIn = ["sphere:-9.351,2.142,5.25,0.857=0.2857"]
+        self.edit(mesh)
+        find("QuadrilleRefinements").setChecked(True)
+        process(0.5)
+        scrolled = find("QuadrilleScrolled")
+        corner = scrolled.mapTo(window(), QtCore.QPoint(2, 2))
+        picture = window().grab()
+        if PICTURES is not None:
+            picture.save(str(PICTURES / "look_dark_task_box.png"))
+        self.assertLess(picture.toImage().pixelColor(corner).lightness(), 128)
+        name, box = find("QuadrilleEntryName0"), find("QuadrilleEntry0")
+        self.assertGreater(box.mapTo(window(), QtCore.QPoint(0, 0)).y(), name.mapTo(window(), QtCore.QPoint(0, 0)).y(), "one above the other")
+
     def test_lists_let_the_wheel_pass(self):
         mesh = self.meshed_part()
         mesh.ViewObject.Proxy.made_by = ""

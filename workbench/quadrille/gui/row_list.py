@@ -7,6 +7,9 @@ from PySide import QtGui
 
 from . import translate
 
+#: Characters of a name that a narrow panel shows beside its field.
+_LONGEST_BESIDE = 14
+
 
 class RowList(QtGui.QWidget):
     """A list whose rows are edited in place."""
@@ -49,8 +52,10 @@ class RowList(QtGui.QWidget):
         remove.setText("×")
         remove.setObjectName(f"{name}Remove{number}")
         remove.setToolTip(translate("Quadrille", "Remove this refinement"))
-        for column, widget in enumerate((shown, box, remove)):
-            self._grid.addWidget(widget, number, column)
+        is_long = len(text) > _LONGEST_BESIDE
+        self._grid.addWidget(shown, 2 * number, 0, 1, 3 if is_long else 1)  # above its field if it would be cut
+        self._grid.addWidget(box, 2 * number + is_long, 0 if is_long else 1, 1, 2 if is_long else 1)
+        self._grid.addWidget(remove, 2 * number + is_long, 2)
         for widget in (shown, box):
             widget.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Fixed)
         self._rows.append(row)
