@@ -45,7 +45,7 @@ TEST_F(SpatialSizesTest, AreTheLeastThatRegionsAskFor) {
   SizingOptions options;
   options.regions = {
       {SizeRegion::Shape::box, {0, 0, 0}, {5, 5, 5}, 0, 0.5, 0},
-      {SizeRegion::Shape::sphere, {30, 20, 10}, {0, 0, 0}, 2, 0.7, 10},
+      {SizeRegion::Shape::sphere, {30, 20, 10}, {0, 0, 0}, 2, 0.7, 20},
       {SizeRegion::Shape::half_space, {0, 18, 0}, {0, 1, 0}, 0, 6, 0},  // larger than the global size
   };
   const SpatialSizes sizes = sizes_of(box_, options);
@@ -57,9 +57,9 @@ TEST_F(SpatialSizesTest, AreTheLeastThatRegionsAskFor) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3 p(30 * share(random), 20 * share(random), 10 * share(random));
     const double from_box = 0.5 + options.growth * options.regions[0].distance(p);
-    // The transition of 10 asks for no more than growth allows.
+    // A transition of 20 is slower than growth allows.
     const double from_sphere =
-        0.7 + std::min(options.growth, (largest - 0.7) / 10) * options.regions[1].distance(p);
+        0.7 + std::min(options.growth, (largest - 0.7) / 20) * options.regions[1].distance(p);
     EXPECT_NEAR(sizes.at(p), std::min({largest, from_box, from_sphere}), 1e-12);
     EXPECT_LE(sizes.hint(p), sizes.at(p));
     less += sizes.at(p) < largest;

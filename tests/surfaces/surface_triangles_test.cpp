@@ -20,8 +20,10 @@ namespace {
 
 constexpr double radius = 5, height = 8, deflection = 0.02;
 
+/// Away from the origin, so that each face counts in the volume.
 CadShape cylinder() {
-  return CadShape(BRepPrimAPI_MakeCylinder(radius, height).Shape(), "cylinder");
+  const gp_Ax2 axes(gp_Pnt(20, 30, -40), gp::DZ());
+  return CadShape(BRepPrimAPI_MakeCylinder(axes, radius, height).Shape(), "cylinder");
 }
 
 SurfaceTriangles triangles_of(const CadShape& shape, const FaceFlags& used) {
@@ -82,7 +84,7 @@ TEST(SurfaceTriangles, AreMadeOfTheUsedFacesOnly) {
 TEST(SurfaceTriangles, AreDividedUntilNoSideIsTooLong) {
   const CadShape shape = cylinder();
   const SurfaceTriangles coarse = triangles_of(shape, FaceFlags(shape.faces.size(), 1));
-  const auto wanted = [](FaceId, const Vector3& p) { return 0.3 + 0.1 * p.z(); };
+  const auto wanted = [](FaceId, const Vector3& p) { return 0.3 + 0.1 * (p.z() + 40); };
   SurfaceTriangles fine = coarse;
   divide_sides(fine, wanted, 1000000, ExecutionContext(1));
   for (std::size_t t = 0; t < fine.triangles.size(); ++t)
