@@ -25,11 +25,11 @@ FileElement quad(std::int64_t number, const std::vector<std::int64_t>& nodes) {
   return element(number, ElementShape::quad, nodes);
 }
 
-/// Nodes at (0, 0), (1, 0), (2, 0), (0, 1) ... with these numbers.
+/// Nodes at (0, 0), (1, 0), (2, 0), then (0, 1) and on, with these numbers.
 MeshBuilder with_nodes(const std::vector<std::int64_t>& numbers) {
   MeshBuilder builder("file.inp");
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    builder.add_node(numbers[i], {static_cast<double>(i % 3), static_cast<double>(i / 3), 0});
+    builder.add_node(numbers[i], {static_cast<double>(i % 3), i < 3 ? 0.0 : 1.0, 0});
   return builder;
 }
 

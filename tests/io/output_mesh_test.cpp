@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "geometry/base/error.hpp"
@@ -65,9 +64,8 @@ TEST(OutputMesh, PutsTheNinthNodeInTheMiddleOfTheElement) {
   for (int quad = 0; quad < output.quad_count(); ++quad) {
     const ElementNodes nodes = output.shell_nodes(quad);
     ASSERT_EQ(nodes.count, 9);
-    const Vector3 middle =
-        0.25 * std::accumulate(nodes.begin(), nodes.begin() + 4, Vector3(0, 0, 0),
-                               [&](Vector3 sum, int node) { return Vector3(sum + output.position(node)); });
+    Vector3 middle = Vector3::Zero();
+    for (int k = 0; k < 4; ++k) middle += 0.25 * output.position(nodes.nodes[k]);
     EXPECT_LT((output.position(nodes.nodes[8]) - middle).norm(), 1e-12);
   }
 }

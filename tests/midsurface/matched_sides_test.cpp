@@ -65,6 +65,7 @@ struct Sheet {
 
 std::vector<int> firsts(const std::vector<MatchedSides>& walls) {
   std::vector<int> result;
+  result.reserve(walls.size());
   for (const MatchedSides& wall : walls) result.push_back(wall.faces[0]);
   std::sort(result.begin(), result.end());
   return result;
