@@ -12,10 +12,7 @@
 #include <memory>
 #include <set>
 
-#include "mesher/faces/face_chart.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/shell/assembly.hpp"
-#include "mesher/shell/face_mesher.hpp"
 #include "tests/models/trouble_models.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/process.hpp"
@@ -192,32 +189,6 @@ TEST(Unfolding, IsTheSameOnAnyNumberOfThreads) {
                   four = second_order_mesh(model, {3, 2, Strategy::subdivide, false}, 4);
   EXPECT_EQ(one.points, four.points);
   EXPECT_EQ(one.off_geometry.size(), four.off_geometry.size());
-}
-
-TEST(Unfolding, NamesTheFaceThatNoStraightSideMends) {
-  const CadModel model = CadModel::read(sample_model("box").path());
-  MeshOptions options;
-  options.order = 2;
-  ExecutionContext context(1);
-  const SizingField field = SizingField::build(model, options.sizing, context);
-  const BoundaryNodes nodes =
-      sample_edges(model.shape(), field, stride(options.strategy), FaceFlags(model.face_count(), 1),
-                   SamplingPlan(model.shape()), context);
-  FaceMeshes faces(model.face_count());
-  const FaceId face = face_id(3);
-  faces[face] = mesh_face(model.shape(), face, make_chart(model.shape(), face, nodes, ChartKind::own), nodes,
-                          field, options, {}, context);
-  const CadGeometry geometry(model.shape());
-  EXPECT_NO_THROW(assemble(geometry, nodes, faces, 2, context));
-  // The last node, far across its neighbors.
-  faces[face]->points.back() += 3 * (faces[face]->points.front() - faces[face]->points.back());
-  try {
-    assemble(geometry, nodes, faces, 2, context);
-    ADD_FAILURE() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), Error::Kind::failure);
-    EXPECT_EQ(error.subject(), "Face3");
-  }
 }
 
 /// CalculiX's input for a plate of the mesh's shape, held at a node and loaded at another.

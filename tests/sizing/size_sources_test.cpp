@@ -20,8 +20,6 @@
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/face_gaps.hpp"
-#include "geometry/sizing/size_cascade.hpp"
-#include "geometry/sizing/size_file.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
 #include "geometry/sizing/vdb_module.hpp"
@@ -212,33 +210,6 @@ void set_metadata(const std::filesystem::path& path, const std::string& name, do
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// Where sizes change, those between points are looked up, on all levels, and not the least of all in a
-/// voxel.
-TEST(SizeSources, MeansOfPointsAreWhatTheyAskFor) {
-  constexpr double slope = 0.2;
-  const auto wanted = [](double x) { return 0.1 + slope * x; };
-  std::vector<SizePoint> points;
-  double x = 0;
-  while (x < 20) {
-    const double step = 0.5 * wanted(x);
-    for (int k = 0; k * step < 10; ++k) points.push_back({{x, k * step, 0.3}, wanted(x)});
-    x += step;
-  }
-  ExecutionContext context;
-  const SizeCascade field = mean_sizes(points, 0.3, context);
-  EXPECT_GT(field.levels(), 4);
-  SizeCascade::Lookup size_at(field);
-  double sum = 0, count = 0;
-  for (int k = 5; k < 190; ++k) {
-    const double ratio = size_at({0.1 * k, 5, 0.3}) / wanted(0.1 * k);
-    EXPECT_GT(ratio, 0.85) << k;
-    EXPECT_LT(ratio, 1.15) << k;
-    sum += std::log(ratio);
-    ++count;
-  }
-  EXPECT_NEAR(std::exp(sum / count), 1, 0.05);
-}
-
 /// A file of ours gives back what it was written from, also where sizes change, and not the least of all
 /// near.
 TEST(SizeSources, SizesOfAFileOfOursAreThoseItWasWrittenWith) {
@@ -383,29 +354,6 @@ TEST(SizeSources, RefuseWhatMakesNoSense) {
   senseless("segments", "Edge99=4");
   senseless("bias", "Edge99=1.1");
   senseless("layers", "Vertex99=1,1.1,2");
-}
-
-TEST(SizeSources, RefuseFilesThatMakeNoSense) {
-  const CadModel box = sample("box");
-  const auto path = std::filesystem::temp_directory_path() / "quadrille_bad_points_test.csv";
-  for (const char* text : {"", "x,y,z,size\n", "1,2,3\n", "0,0,0,-1\n", "0,0,0,nan\n", "0,0,0,1,\n",
-                           "a,b\nc,d\n", "1,2,3,x\n0,0,0,1\n", "900,0,0,1\n"}) {
-    std::ofstream(path) << text;
-    SizingOptions options;
-    options.size = 2;
-    options.size_points = path;
-    ExecutionContext context;
-    EXPECT_THROW(SizingField::build(box, options, context), Error) << text;
-  }
-  std::ofstream(path) << "1,2,nan,1\n";
-  try {
-    read_size_points(path);
-    FAIL();
-  } catch (const Error& problem) {
-    EXPECT_NE(std::string(problem.what()).find("line 1 has a coordinate"), std::string::npos)
-        << problem.what();
-  }
-  std::filesystem::remove(path);
 }
 
 }  // namespace
