@@ -60,8 +60,10 @@ def read_meshio(path):
                 seen.groups[name] = int((mesh.point_data["point_tags"] == number).sum())
     elif path.suffix == ".bdf":
         seen.group_count = len(set(numpy.concatenate(mesh.cell_data["nastran:ref"])))
-    elif path.suffix == ".vtu":
-        for kind in ("face", "edge", "vertex"):
+    elif path.suffix == ".su2":  # markers, which meshio numbers
+        seen.group_count = len({tag for tags in mesh.cell_data["su2:tag"] for tag in tags if tag > 0})
+    elif path.suffix in (".vtu", ".xdmf"):
+        for kind in ("face", "edge", "vertex") if path.suffix == ".vtu" else ("face",):
             numbers = numpy.concatenate(mesh.cell_data[kind])
             for number in set(numbers[numbers > 0]):
                 seen.groups[f"{kind.title()}{number}"] = int((numbers == number).sum())
