@@ -158,10 +158,19 @@ def read_libmed(path):
 
 
 def read_dolfinx(path):
-    """By dolfinx, over Gmsh's Python module."""
+    """By dolfinx, .msh over Gmsh's Python module."""
+    from mpi4py import MPI
+
+    if path.suffix == ".xdmf":
+        from dolfinx.io import XDMFFile
+
+        with XDMFFile(MPI.COMM_WORLD, str(path), "r", XDMFFile.Encoding.ASCII) as file:
+            mesh = file.read_mesh(name="mesh")
+            numbers = file.read_meshtags(mesh, name="mesh").values
+        return Seen(nodes=len(mesh.geometry.x), quads=mesh.topology.index_map(2).size_global,
+                    groups={f"Face{number}": int((numbers == number).sum()) for number in set(numbers)})
     import dolfinx.io.gmshio
     import gmsh
-    from mpi4py import MPI
 
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
