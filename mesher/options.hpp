@@ -42,7 +42,7 @@ struct WriteOptions {
   InpElement element = InpElement::shell;  ///< type of the quads in .inp files
   double scale = 1;   ///< of all lengths in the files, thicknesses too: 0.001 writes meters
   std::string title;  ///< for formats with a comment or title line; control characters are written as '?'
-  int threads = 0;    ///< threads that format .msh, .inp, .unv, .bdf and .vtk as text; 0 = all cores
+  int threads = 0;    ///< threads that format files of text; 0 = all cores
 };
 
 class SizingField;

@@ -308,7 +308,8 @@ std::vector<Setting> make_table() {
       {"msh_version", "msh-version", none, none, write, none, 0, 0, false, none, "version of .msh files",
        [](Settings& v) -> MshVersion& { return v.write.msh_version; }},
       {"nodes", "nodes", none, none, write, none, 8, 9, false, none,
-       "nodes of second-order quads in files: 8, or 9 with one in the middle (.msh, .med, .vtu and .vtk)",
+       "nodes of second-order quads in files: 8, or 9 with one in the middle (.msh, .med, .vtu, .vtk and "
+       ".xdmf)",
        [](Settings& v) -> int& { return v.write.quad_nodes; }},
       {"element", "element", none, none, write, none, 0, 0, false, none,
        "type of the quads in .inp files; shell: S4, at second order S8R; for plane and axisymmetric elements "

@@ -4,7 +4,7 @@
 #   scripts/fuzz.sh                      all targets, 600 seconds each
 #   scripts/fuzz.sh --seconds 60 vdb     this target only, for one minute
 #
-# Targets: options msh inp unv bdf vdb brep step iges. Findings are in build-fuzz/found, inputs in build-fuzz/corpus.
+# Targets: options msh inp vdb brep step iges. Findings are in build-fuzz/found, inputs in build-fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
 seconds=600
@@ -13,7 +13,7 @@ if [[ "${1:-}" == --seconds ]]; then
   shift 2
 fi
 targets=("$@")
-if [[ ${#targets[@]} -eq 0 ]]; then targets=(options msh inp unv bdf vdb brep step iges); fi
+if [[ ${#targets[@]} -eq 0 ]]; then targets=(options msh inp vdb brep step iges); fi
 
 cmake --preset fuzz >/dev/null
 cmake --build --preset fuzz --target make_seeds "${targets[@]/%/_fuzz}"

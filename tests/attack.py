@@ -412,7 +412,7 @@ class Attack:
         odd = rng.choice(["a\n*INCLUDE, INPUT=x\nb", "\x1b[2J", "a b", "-o", "ä\udcff", "%s%n", "$(x)", "*INCLUDE"])
         own = folder / (odd + model.suffix)
         shutil.copy(model, own)
-        out = f"{rng.choice(['a', odd])}.{rng.choice(['inp', 'bdf', 'med', 'unv', 'vtu', 'vtk', 'msh'])}"
+        out = f"{rng.choice(['a', odd])}.{rng.choice(['inp', 'bdf', 'med', 'unv', 'vtu', 'vtk', 'msh', 'xdmf', 'su2'])}"
         run = Run(["mesh", f"./{own.name}", "-o", f"./{out}", "--quiet", "--elements-per-diagonal", "10"], folder, expected=(out,))
         return run.start(self.quadrille).end()
 
@@ -470,7 +470,7 @@ class Attack:
         """The same bytes under locales with decimal commas; not of .med, in which HDF5 stores the time."""
         if not self.locales:
             return
-        model, ending = rng.choice(self.own), rng.choice(["msh", "inp", "bdf", "unv", "vtk", "vtu"])
+        model, ending = rng.choice(self.own), rng.choice(["msh", "inp", "bdf", "unv", "vtk", "vtu", "xdmf", "su2"])
         files = []
         for name, locale in (("a", {"LC_ALL": "C"}), ("b", rng.choice(self.locales))):
             place = folder / name

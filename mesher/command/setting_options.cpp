@@ -144,12 +144,12 @@ int order_of(const GivenSettings& given, const std::vector<std::filesystem::path
 }
 
 void check_formats(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
-  const int quad_nodes = given.settings.write.quad_nodes;
-  if (quad_nodes == 9 && order_of(given, outputs) == 1)
+  const int quad_nodes = given.settings.write.quad_nodes, order = order_of(given, outputs);
+  if (quad_nodes == 9 && order == 1)
     throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
   for (const std::filesystem::path& output : outputs) {
-    check_format(output, quad_nodes);
-    if (is_inp(output)) check_element(given.settings.write.element, order_of(given, outputs));
+    check_format(output, order == 1 ? 4 : quad_nodes);
+    if (is_inp(output)) check_element(given.settings.write.element, order);
   }
 }
 

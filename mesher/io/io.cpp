@@ -59,25 +59,25 @@ struct Format {
   ShellMesh (*read)(const std::filesystem::path& path, std::vector<std::string>* notes);  ///< null: not read
   void (*write)(const Writing& writing, AtomicFile& file);  ///< null: not written
   bool for_solvers = false;  ///< whether solvers read it: the mesh is then of second order by default
-  bool nine_nodes = false;   ///< whether it can hold quads of nine nodes
+  int quad_nodes = 4;        ///< the most nodes of a quad that it holds: 4, 8 or 9
   Library writer_needs = Library::none;
   std::size_t longest_name = 0;  ///< bytes that a file name may have without its ending; 0 = any number
 };
 
 constexpr Format formats[] = {
-    {".msh", "Gmsh", from_bytes<read_msh>, as_text<write_msh>, false, true},
-    {".inp", "CalculiX, Abaqus", from_bytes<read_inp>, as_text<write_inp>, true, false},
-    {".unv", "I-DEAS universal", from_bytes<read_unv>, as_text<write_unv>, true, false},
-    {".bdf", "Nastran", from_bytes<read_bdf>, as_text<write_bdf>, true, false},
-    {".nas", "Nastran", from_bytes<read_bdf>, nullptr},
-    {".dat", "Nastran", from_bytes<read_bdf>, nullptr},
-    {".med", "MED (Salome, Code_Aster)", nullptr, write_med, true, true, Library::med, 64},
+    {".msh", "Gmsh", from_bytes<read_msh>, as_text<write_msh>, false, 9},
+    {".inp", "CalculiX, Abaqus", from_bytes<read_inp>, as_text<write_inp>, true, 8},
+    {".unv", "I-DEAS universal", nullptr, as_text<write_unv>, true, 8},
+    {".bdf", "Nastran", nullptr, as_text<write_bdf>, true, 8},
+    {".med", "MED (Salome, Code_Aster)", nullptr, write_med, true, 9, Library::med, 64},
     {".stl", "STL", read_by_vtk, nullptr},
     {".obj", "Wavefront", read_by_vtk, nullptr},
     {".ply", "PLY", read_by_vtk, nullptr},
-    {".vtk", "VTK legacy", read_by_vtk, as_text<write_vtk>, false, true},
-    {".vtu", "VTK XML (ParaView)", read_by_vtk, write_vtu, false, true, Library::vtk},
+    {".vtk", "VTK legacy", read_by_vtk, as_text<write_vtk>, false, 9},
+    {".vtu", "VTK XML (ParaView)", read_by_vtk, write_vtu, false, 9, Library::vtk},
     {".vtp", "VTK XML surfaces", read_by_vtk, nullptr},
+    {".xdmf", "XDMF (dolfinx, ParaView)", nullptr, as_text<write_xdmf>, false, 9},
+    {".su2", "SU2", nullptr, as_text<write_su2>},
 };
 
 /// The row of the file's ending; null if there is none.
@@ -156,7 +156,7 @@ std::string tables_json() {
                      {"read", format.read != nullptr},
                      {"written", format.write != nullptr},
                      {"for_solvers", format.for_solvers},
-                     {"nine_nodes", format.nine_nodes}});
+                     {"quad_nodes", format.quad_nodes}});
   for (const CriterionInfo& info : criteria_info)
     criteria.push_back({{"name", info.name},
                         {"unit", info.unit},
@@ -168,9 +168,13 @@ std::string tables_json() {
 void check_format(const std::filesystem::path& path, int quad_nodes) {
   const Format& format = written_format(path);
   require_library(format.writer_needs, format.ending);
-  if (quad_nodes == 9 && !format.nine_nodes)
-    throw usage_error("nodes", fmt::format("{}: this format has no nine-node quads: `nodes` 9 is for {}",
-                                           path.string(), endings("and", &Format::nine_nodes)));
+  if (quad_nodes > format.quad_nodes)
+    throw usage_error(
+        quad_nodes == 9 ? "nodes" : "order",
+        fmt::format("{}: this format has no quads of {} nodes: {} is for {}", path.string(), quad_nodes,
+                    quad_nodes == 9 ? "`nodes` 9" : "`order` 2", endings("and", [&](const Format& other) {
+                      return other.write != nullptr && other.quad_nodes >= quad_nodes;
+                    })));
   const std::size_t name = path.stem().string().size();
   if (format.longest_name > 0 && name > format.longest_name)
     throw usage_error(path.string(),
@@ -220,8 +224,10 @@ void write_size_picture(const SizeMap& map, const std::filesystem::path& path, i
 ShellMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const Format* format = format_of(path);
   if (format == nullptr || format->read == nullptr)
-    throw failure(path.string(),
-                  fmt::format("{}: unknown mesh format (known are {})", path.string(), read_endings("and")));
+    throw failure(
+        path.string(),
+        fmt::format("{}: unknown mesh format (known are {}): Gmsh and meshio convert others to .msh",
+                    path.string(), read_endings("and")));
   return format->read(path, notes);
 }
 

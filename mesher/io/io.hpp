@@ -15,19 +15,19 @@
 namespace quadrille {
 
 /// Writes .msh (Gmsh), .inp (Abaqus/CalculiX), .unv (I-deas), .bdf (Nastran), .med (Salome), .vtu, .vtk
-/// (legacy): the quads with their CAD faces, the segments on CAD edges and the corners on CAD vertices as
-/// groups named as in FreeCAD (Face3, Edge7, Vertex2), as far as options.groups asks for them. Numbering is
-/// dense from 1. The file appears whole or not at all. docs/formats.md describes what each format contains.
-/// Plane and axisymmetric elements (options.element) turn the mesh in an .inp file into the plane z = 0.
-/// Throws Error: usage as check_format() and check_element() do, for nine-node quads of a first-order mesh,
-/// for a mesh that is not plane where options.element needs one, or that has negative radii where the element
-/// is axisymmetric; failure when the file cannot be written.
+/// (legacy), .xdmf, .su2: the quads with their CAD faces, the segments on CAD edges and the corners on CAD
+/// vertices as groups named as in FreeCAD (Face3, Edge7, Vertex2), as far as options.groups asks for them.
+/// Numbering is dense from 1. The file appears whole or not at all. docs/formats.md describes what each
+/// format contains. Plane and axisymmetric elements (options.element) turn the mesh in an .inp file into the
+/// plane z = 0. Throws Error: usage as check_format() and check_element() do, for nine-node quads of a
+/// first-order mesh, for a mesh that is not plane where options.element needs one, or that has negative radii
+/// where the element is axisymmetric; failure when the file cannot be written.
 QUADRILLE_API void write_mesh(const ShellMesh& mesh, const std::filesystem::path& path,
                               const WriteOptions& options = {});
 
 /// Throws Error (usage) if such a file cannot hold the mesh: for unknown endings, for quads of nine nodes in
-/// .inp, .unv and .bdf files, for .med files whose name without the ending has more than 64 bytes.
-/// \param quad_nodes 4, 8 or 9.
+/// .inp, .unv and .bdf files, of eight or nine in .su2 files, for .med files whose name without the ending
+/// has more than 64 bytes. \param quad_nodes 4, 8 or 9.
 QUADRILLE_API void check_format(const std::filesystem::path& path, int quad_nodes);
 
 /// Throws Error (usage) if .inp files cannot have this element type for a mesh of this order.
@@ -46,10 +46,10 @@ QUADRILLE_API bool is_solver_format(const std::filesystem::path& path);
 /// The tables of mesh formats and of quality criteria as a JSON object, for other programs.
 QUADRILLE_API std::string tables_json();
 
-/// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary), Abaqus/CalculiX .inp, I-deas .unv,
-/// Nastran .bdf (.nas, .dat), .stl, .obj, .ply, .vtk, .vtu, .vtp. Sets and physical groups are in
-/// ShellMesh::groups. \param notes receives a sentence for each thing in the file that a mesh cannot hold.
-/// Throws Error (failure) with one sentence that names the line, element or node at fault.
+/// Reads a surface mesh: Gmsh .msh (2.2 and 4.1, ASCII and binary), Abaqus/CalculiX .inp, .stl, .obj, .ply,
+/// .vtk, .vtu, .vtp. Sets and physical groups are in ShellMesh::groups. \param notes receives a sentence for
+/// each thing in the file that a mesh cannot hold. Throws Error (failure) with one sentence that names the
+/// line, element or node at fault.
 QUADRILLE_API ShellMesh read_mesh(const std::filesystem::path& path,
                                   std::vector<std::string>* notes = nullptr);
 

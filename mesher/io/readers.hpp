@@ -25,17 +25,6 @@ ShellMesh read_msh(std::string_view bytes, const std::string& name,
 ShellMesh read_inp(std::string_view bytes, const std::string& name,
                    std::vector<std::string>* notes = nullptr);
 
-/// Parses I-deas universal files: nodes (15, 781, 2411), elements (780, 2412), groups (2435, 2452, 2467,
-/// 2477). A quad's face is its property number.
-ShellMesh read_unv(std::string_view bytes, const std::string& name,
-                   std::vector<std::string>* notes = nullptr);
-
-/// Parses Nastran bulk data in fixed fields of 8 or 16 columns and in free ones: GRID, CTRIA3, CTRIA6,
-/// CTRIAR, CQUAD4, CQUAD8, CQUADR, CQUAD, CQUAD9, CSHEAR. A quad's face is its property number; names that
-/// HyperMesh and ANSA give properties in comments are groups.
-ShellMesh read_bdf(std::string_view bytes, const std::string& name,
-                   std::vector<std::string>* notes = nullptr);
-
 /// Reads .stl, .obj, .ply, .vtk, .vtu and .vtp with VTK. A quad's face is in a cell array named face (our
 /// own), CellEntityIds (Gmsh) or gmsh:geometrical (meshio); solids of .stl files are groups. Nodes of .stl
 /// and .obj files at the same position become one: these formats repeat them.

@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
 
-#include "mesher/io/writers.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/io/mesh_arrays.hpp"
 
 namespace quadrille {
 
@@ -18,7 +15,7 @@ namespace {
 template <class Write>
 void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
   write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    write(static_cast<int>(i), to);
+    write(mesh.shell_nodes(static_cast<int>(i)), to);
     to << '\n';
   });
 }
@@ -33,30 +30,17 @@ std::string array_name(const std::string& name) {
   return result;
 }
 
-void write_set(const std::string& name, const std::vector<char>& members, TextWriter& out) {
-  out << "SCALARS " << array_name(array_of_set(name)) << " unsigned_char 1\nLOOKUP_TABLE default\n";
-  for (const char member : members) out << static_cast<int>(member) << '\n';
-}
-
-/// Writes sets of shell elements, then those of segments and corners, which are not cells here, as node sets.
-void write_set_arrays(const OutputMesh& mesh, TextWriter& out) {
-  std::vector<std::string> of_nodes;
-  for (const std::string& name : mesh.set_names()) {
-    const auto has_it = [&](int dimension) {
-      const auto& groups = mesh.groups(dimension);
-      return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.name == name; });
-    };
-    if (has_it(2)) write_set(name, mesh.is_in_set(2, name), out);
-    if (has_it(1) || has_it(0)) of_nodes.push_back(name);
-  }
-  if (!of_nodes.empty()) out << "POINT_DATA " << mesh.nodes().size() << '\n';
-  for (const std::string& name : of_nodes) {
-    std::vector<char> members(mesh.nodes().size(), 0);
-    for (const int dimension : {1, 0})
-      for (const NamedGroup& group : mesh.groups(dimension))
-        if (group.name == name)
-          for (const int number : mesh.node_numbers(dimension, group)) members[number - 1] = 1;
-    write_set(name, members, out);
+void write_arrays(const Writing& writing, TextWriter& out) {
+  constexpr const char* types[] = {"unsigned_char", "int", "double"};
+  const OutputMesh& mesh = writing.output;
+  out << "CELL_DATA " << mesh.shell_count() << '\n';
+  bool of_nodes = false;
+  for (const MeshArray& array : mesh_arrays(writing)) {
+    if (array.of_nodes && !of_nodes) out << "POINT_DATA " << mesh.nodes().size() << '\n';
+    of_nodes = array.of_nodes;
+    out << "SCALARS " << array_name(array.name) << ' ' << types[static_cast<int>(array.type)]
+        << " 1\nLOOKUP_TABLE default\n";
+    write_numbers(array, mesh, out);
   }
 }
 
@@ -64,7 +48,6 @@ void write_set_arrays(const OutputMesh& mesh, TextWriter& out) {
 
 void write_vtk(const Writing& writing, TextWriter& out) {
   const OutputMesh& mesh = writing.output;
-  const std::vector<double> qualities = quad_qualities(writing.mesh);
   constexpr std::size_t longest_title = 255;
   const std::size_t nodes = mesh.nodes().size();
   out << "# vtk DataFile Version 2.0\n"
@@ -75,23 +58,13 @@ void write_vtk(const Writing& writing, TextWriter& out) {
   std::size_t numbers = 0;
   for (int i = 0; i < mesh.shell_count(); ++i) numbers += 1 + mesh.shell_nodes(i).count;
   out << "CELLS " << mesh.shell_count() << ' ' << numbers << '\n';
-  write_lines(mesh, out, [&](int shell, TextWriter& to) {
-    const ElementNodes element = mesh.shell_nodes(shell);
+  write_lines(mesh, out, [&](const ElementNodes& element, TextWriter& to) {
     to << element.count;
     for (const int node : element) to << ' ' << mesh.number(node) - 1;
   });
   out << "CELL_TYPES " << mesh.shell_count() << '\n';
-  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << vtk_cell_type(mesh.shell_nodes(shell)); });
-  out << "CELL_DATA " << mesh.shell_count() << "\nSCALARS face int 1\nLOOKUP_TABLE default\n";
-  write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mesh.face(shell); });
-  out << "SCALARS q double 1\nLOOKUP_TABLE default\n";
-  write_lines(mesh, out,
-              [&](int shell, TextWriter& to) { to << (mesh.is_quad(shell) ? qualities[shell] : 0.0); });
-  if (!mesh.thicknesses().empty()) {
-    out << "SCALARS thickness double 1\nLOOKUP_TABLE default\n";
-    write_lines(mesh, out, [&](int shell, TextWriter& to) { to << mean_thickness(mesh, shell); });
-  }
-  write_set_arrays(mesh, out);
+  write_lines(mesh, out, [](const ElementNodes& element, TextWriter& to) { to << vtk_cell_type(element); });
+  write_arrays(writing, out);
 }
 
 }  // namespace quadrille

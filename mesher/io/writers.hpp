@@ -21,7 +21,10 @@ void write_msh(const Writing& writing, TextWriter& out);  ///< Gmsh .msh, ASCII,
 void write_inp(const Writing& writing, TextWriter& out);  ///< Abaqus/CalculiX .inp
 void write_unv(const Writing& writing, TextWriter& out);
 void write_bdf(const Writing& writing, TextWriter& out);
-/// Legacy .vtk as text, with only the shell elements as cells.
+/// Legacy .vtk and XDMF 3 as text, with only the shell elements as cells.
 void write_vtk(const Writing& writing, TextWriter& out);
+void write_xdmf(const Writing& writing, TextWriter& out);
+/// SU2's native mesh; it holds first order only.
+void write_su2(const Writing& writing, TextWriter& out);
 
 }  // namespace quadrille

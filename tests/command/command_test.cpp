@@ -643,7 +643,7 @@ TEST(Command, GivesSolversSecondOrder) {
     EXPECT_EQ(order_in(fmt::format("-o a.msh -o a.{}", solver)), 2) << solver;
     EXPECT_EQ(order_in(fmt::format("-o a.{} --order 1", solver)), 1) << solver;
   }
-  for (const char* other : {"msh", "vtu", "vtk"})
+  for (const char* other : {"msh", "vtu", "vtk", "xdmf", "su2"})
     EXPECT_EQ(order_in(fmt::format("-o a.{}", other)), 1) << other;
 }
 
@@ -777,7 +777,7 @@ TEST(Command, TerminalsGetNothingToObey) {
                    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"" + hostile +
                        "\"\n$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n"
                        "$Elements\n2\n1 2 2 1 1 1 2 3\n2 2 2 1 1 1 3 4\n$EndElements\n");
-  for (const char* ending : {"msh", "inp", "unv", "bdf", "vtk"}) {
+  for (const char* ending : {"msh", "inp", "unv", "bdf", "vtk", "xdmf", "su2"}) {
     told(fmt::format("recombine a.msh -o out.{} --report r.json", ending));
     const std::string text = test::file_text(folder / fmt::format("out.{}", ending));
     EXPECT_FALSE(text.empty());
@@ -932,7 +932,7 @@ TEST(Command, AnswersHelpAndVersion) {
   EXPECT_EQ(stdout_of(folder, "--version").out, "quadrille " QUADRILLE_VERSION "\n");
   EXPECT_EQ(stdout_of(folder, "mesh --help").exit_code, 0);
   EXPECT_PRED2(contains, stdout_of(folder, "mesh --help").out, "--size-on");
-  EXPECT_PRED2(contains, stdout_of(folder, "quality --help").out, ".bdf, .nas, .dat");
+  EXPECT_PRED2(contains, stdout_of(folder, "quality --help").out, ".msh, .inp, .stl");
 }
 
 /// Runs the command in a small file system of its own, mounted where nobody else sees it, with what it says
@@ -959,7 +959,8 @@ TEST_P(FullDisk, GivesOneSentenceAndNoFile) {
   EXPECT_EQ(outcome, fmt::format("quadrille: {}: cannot be written: No space left on device\nexit 1\n", out));
 }
 
-INSTANTIATE_TEST_SUITE_P(Command, FullDisk, testing::Values("msh", "inp", "unv", "bdf", "vtu", "vtk", "med"));
+INSTANTIATE_TEST_SUITE_P(Command, FullDisk,
+                         testing::Values("msh", "inp", "unv", "bdf", "vtu", "vtk", "med", "xdmf", "su2"));
 
 TEST(Command, ReportsAFullDisk) {
   const TemporaryFolder folder;

@@ -196,7 +196,7 @@ TEST(RecombineCommand, NamesAreKeptWhateverTheNumbers) {
   std::string text = as_msh(halves);
   text.insert(text.find("$Nodes"), "$PhysicalNames\n2\n2 1 \"the left\"\n2 6 \"Face1\"\n$EndPhysicalNames\n");
   test::write_text(folder / "in.msh", text);
-  for (const char* out : {"out.msh", "out.unv", "out.inp"}) {
+  for (const char* out : {"out.msh", "out.vtu", "out.inp"}) {
     const auto result = test::run(fmt::format("cd {} && timeout 300 {} recombine in.msh -o {} --quiet 2>&1",
                                               folder.path().string(), program, out));
     ASSERT_EQ(result.exit_code, 0) << result.out;

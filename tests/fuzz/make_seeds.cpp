@@ -43,7 +43,7 @@ void write_meshes(const TroubleModel& trouble, const std::filesystem::path& fold
     if (order == 1) options.write_size_field = folder / "vdb" / (trouble.name + ".vdb");
     ExecutionContext context(1);
     const ShellMesh result = mesh(model, options, context);
-    for (const char* format : {"msh", "inp", "unv", "bdf"}) {
+    for (const char* format : {"msh", "inp"}) {
       const std::string name = trouble.name + std::to_string(order) + "." + format;
       write_mesh(result, folder / format / name);
     }
@@ -75,7 +75,7 @@ void put_options_first(const std::filesystem::path& path) {
 }
 
 void write_seeds(const std::filesystem::path& folder) {
-  for (const char* format : {"brep", "step", "iges", "msh", "inp", "unv", "bdf", "vdb", "options"}) {
+  for (const char* format : {"brep", "step", "iges", "msh", "inp", "vdb", "options"}) {
     std::filesystem::create_directories(folder / format);
   }
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));

@@ -150,7 +150,7 @@ TEST(Writers, GiveTheSameBytesOnAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const ShellGrid grid(150, 2);
   WriteOptions options;
-  for (const char* ending : {".msh", "-4.msh", ".inp", ".unv", ".bdf", ".vtk"}) {
+  for (const char* ending : {".msh", "-4.msh", ".inp", ".unv", ".bdf", ".vtk", ".xdmf"}) {
     options.msh_version = ending[0] == '-' ? MshVersion::v4_1 : MshVersion::v2_2;
     std::string one;
     for (const int threads : {1, 2, 8}) {
@@ -217,7 +217,7 @@ TEST(Formats, EachRowOfTheTableIsReadAndWritten) {
       EXPECT_TRUE(contains(written_endings("or"), ending));
       // What the help of settings says of formats.
       EXPECT_EQ(contains(std::string(setting("order")->otherwise), ending), row.at("for_solvers")) << ending;
-      EXPECT_EQ(contains(std::string(setting("nodes")->help), ending), row.at("nine_nodes")) << ending;
+      EXPECT_EQ(contains(std::string(setting("nodes")->help), ending), row.at("quad_nodes") == 9) << ending;
     } else {
       EXPECT_SAYS(write_mesh(grid.mesh(), path), "(known are " + written_endings("and") + ")");
     }
@@ -245,7 +245,7 @@ TEST(Writers, WriteTrianglesToo) {
     EXPECT_EQ(back.quads.size(), mesh.quads.size()) << name;
     EXPECT_EQ(back.triangle_faces, mesh.triangle_faces) << name;
   }
-  for (const char* name : {"a.med", "a.unv", "a.bdf", "a.vtu"})
+  for (const char* name : {"a.med", "a.unv", "a.bdf", "a.vtu", "a.su2"})
     EXPECT_NO_THROW(write_mesh(mesh, folder / name)) << name;
 }
 
@@ -253,8 +253,9 @@ TEST(Writers, WriteTrianglesToo) {
 std::map<std::string, std::string> all_formats(const ShellMesh& mesh, const WriteOptions& options) {
   const TemporaryFolder folder;
   std::map<std::string, std::string> files;
-  for (const char* ending : {"msh", "inp", "unv", "bdf", "med", "vtu", "vtk"}) {
-    const auto file = folder / (std::string("a.") + ending);
+  for (const std::string ending : {"msh", "inp", "unv", "bdf", "med", "vtu", "vtk", "xdmf", "su2"}) {
+    if (ending == "su2" && mesh.order == 2) continue;
+    const auto file = folder / ("a." + ending);
     write_mesh(mesh, file, options);
     files[ending] = test::file_text(file);
   }
@@ -312,7 +313,7 @@ TEST_P(RoundTrip, GroupsAreWrittenAsAskedFor) {
   options.groups = {true, false, false};
   for (const auto& [ending, bytes] : all_formats(grid.mesh(), options)) {
     EXPECT_FALSE(contains(bytes, "Edge1") || contains(bytes, "Vertex1")) << ending;
-    const bool has_names = ending != "vtu" && ending != "vtk";
+    const bool has_names = ending != "vtu" && ending != "vtk" && ending != "xdmf" && ending != "su2";
     EXPECT_EQ(contains(bytes, "Face2"), has_names) << ending;
   }
   options.groups = {false, false, false};
@@ -346,8 +347,48 @@ TEST(Writers, NineNodesAreTheEightAndTheMiddleOfTheElement) {
   EXPECT_NEAR(y, 1.0 / 6, 1e-12);
   EXPECT_NEAR(z, 0.3 * std::sin(0.5), 2e-3);
   for (const char* name : {"a.inp", "a.unv", "a.bdf"})
-    EXPECT_SAYS(write_mesh(grid.mesh(), folder / name, options), "no nine-node quads");
+    EXPECT_SAYS(write_mesh(grid.mesh(), folder / name, options), "no quads of 9 nodes");
+  EXPECT_SAYS(write_mesh(grid.mesh(), folder / "a.su2"), "no quads of 8 nodes");
   EXPECT_SAYS(write_mesh(ShellGrid(3, 1).mesh(), folder / "b.msh", options), "this one is first order");
+}
+
+/// SU2 refuses lines in a mesh with three coordinates.
+TEST(Su2, HasTwoCoordinatesInThePlaneAndMarkersOfItsEdges) {
+  const TemporaryFolder folder;
+  const auto text_of = [&](const ShellMesh& mesh) {
+    write_mesh(mesh, folder / "a.su2");
+    return test::file_text(folder / "a.su2");
+  };
+  ShellMesh mesh = ShellGrid(2, 1, 0).mesh();
+  mesh.extra_groups = {{"all rims", 1, 0, {4, 5, 6, 7}}};
+  mesh.points[0].z() = 1e-16;
+  const std::string plane = text_of(mesh);
+  EXPECT_TRUE(contains(plane, "NDIME= 2\nNPOIN= 15\n0 0\n0.5 0\n")) << plane;
+  EXPECT_TRUE(contains(plane, "\nNELEM= 8\n9 0 1 6 5\n")) << plane;
+  EXPECT_TRUE(contains(plane, "\nNMARK= 7\nMARKER_TAG= Edge1\nMARKER_ELEMS= 2\n3 0 5\n3 5 10\n")) << plane;
+  mesh.groups = {{"far (field), 1", 1, 0, {4, 6}}};
+  EXPECT_TRUE(contains(text_of(mesh), "\nNMARK= 1\nMARKER_TAG= far__field___1\nMARKER_ELEMS= 4\n"));
+  EXPECT_TRUE(contains(text_of(ShellGrid(2, 1).mesh()), "NDIME= 3\nNPOIN= 15\n0 0 0\n"));
+}
+
+/// The consumers' test has no triangles, and no sets.
+TEST(Xdmf, MixesTrianglesAndTellsOfSets) {
+  const TemporaryFolder folder;
+  ShellMesh mesh = ShellGrid(1, 1).mesh();
+  mesh.groups = {{"a <plate>", 2, 0, {2}}, {"rim", 1, 0, {1}}};
+  const auto quad = mesh.quads.back();
+  mesh.quads.pop_back();
+  mesh.quad_faces.pop_back();
+  mesh.triangles = {{quad[0], quad[1], quad[2]}, {quad[0], quad[2], quad[3]}};
+  mesh.triangle_faces = {2, 2};
+  write_mesh(mesh, folder / "a.xdmf");
+  const std::string text = test::file_text(folder / "a.xdmf");
+  EXPECT_TRUE(contains(text, "TopologyType=\"Mixed\" NumberOfElements=\"3\"")) << text;
+  EXPECT_TRUE(contains(text, "Dimensions=\"13\">\n5 0 1 4 3 \n4 1 2 5 \n4 1 5 4 \n<")) << text;
+  EXPECT_TRUE(contains(text, "\"a _plate_\" AttributeType=\"Scalar\" Center=\"Cell\">")) << text;
+  EXPECT_TRUE(contains(text, "Dimensions=\"3\">\n0\n1\n1\n<")) << text;
+  EXPECT_TRUE(contains(text, "\"rim\" AttributeType=\"Scalar\" Center=\"Node\">")) << text;
+  EXPECT_TRUE(contains(text, "Dimensions=\"6\">\n1\n0\n0\n1\n0\n0\n<")) << text;
 }
 
 TEST(Writers, RefuseNamesThatMedCannotHold) {
@@ -399,7 +440,7 @@ TEST(Writers, KeepTitlesOnOneLine) {
   for (const auto& [ending, bytes] : all_formats(ShellGrid(2, 1).mesh(), options)) {
     for (const char* part : {"\n*INCLUDE", "\r$ a", "\x1b["})
       EXPECT_FALSE(contains(bytes, part)) << ending << ": " << part;
-    const bool has_title = ending != "msh" && ending != "unv" && ending != "vtu";
+    const bool has_title = ending != "msh" && ending != "unv" && ending != "vtu" && ending != "xdmf";
     EXPECT_EQ(contains(bytes, "part?*INCLUDE"), has_title) << ending;
   }
   options.title = " *INCLUDE, INPUT=x";

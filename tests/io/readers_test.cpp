@@ -58,12 +58,11 @@ ShellMesh named_grid(int order = 1) {
 }
 
 class Named : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Formats, Named, testing::Values("a.msh", "4.msh", "a.unv", "a.vtu"),
-                         [](const auto& file) {
-                           std::string name = file.param;
-                           name[1] = '_';
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Formats, Named, testing::Values("a.msh", "4.msh", "a.vtu"), [](const auto& file) {
+  std::string name = file.param;
+  name[1] = '_';
+  return name;
+});
 
 TEST_P(Named, GroupsComeBackAsTheyWentOut) {
   const TemporaryFolder folder;
@@ -77,7 +76,7 @@ TEST_P(Named, GroupsComeBackAsTheyWentOut) {
     EXPECT_EQ(back.quads.size(), mesh.quads.size());
     EXPECT_EQ(back.segments.size(), mesh.segments.size());
     EXPECT_EQ(back.order, order);
-    if (GetParam() == "a.unv" || GetParam() == "a.vtu") continue;  // they have no numbers
+    if (GetParam() == "a.vtu") continue;  // it has no numbers
     for (const ShellMesh::Group& group : back.groups) {
       const auto same = std::find_if(mesh.groups.begin(), mesh.groups.end(),
                                      [&](const auto& other) { return other.name == group.name; });
@@ -118,39 +117,23 @@ TEST(Readers, InpSetsMayNameOthersAndOverlap) {
   EXPECT_EQ(std::set<int>(mesh.triangle_faces.begin(), mesh.triangle_faces.end()).size(), 2U);
 }
 
-/// Gmsh writes an element of two physical groups twice in version 2.2.
-TEST(Readers, UnvTakesGroupsAsGmshWritesThem) {
-  // Gmsh begins a new line where nodes are followed by elements, and has groups of the nodes of elements.
+/// A set of elements and the set of its nodes under one name, which .inp has as one anyway.
+TEST(Readers, SetsOfElementsAndOfTheirNodesAreOneInInp) {
   const TemporaryFolder folder;
-  test::write_text(
-      folder / "a.unv",
-      "    -1\n  2411\n"
-      "         1         1         1        11\n   0.0   0.0   0.0\n"
-      "         2         1         1        11\n   1.0   0.0   0.0\n"
-      "         3         1         1        11\n   1.0   1.0   0.0\n"
-      "         4         1         1        11\n   0.0   1.0   0.0\n"
-      "    -1\n    -1\n  2412\n"
-      "         1        91         6         0         7         3\n         1         2         3\n"
-      "         2        91         6         0         7         3\n         1         3         4\n"
-      "    -1\n    -1\n  2477\n"
-      "         1         0         0         0         0         0         0         6\ntop\n"
-      "         7         1         0         0         7         2         0         0\n"
-      "         7         3         0         0\n"
-      "         8         1         0         0         8         2         0         0\n"
-      "         7         4         0         0\n"
-      "    -1\n");
-  const ShellMesh mesh = read_mesh(folder / "a.unv");
+  const ShellMesh mesh = read_msh(
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"top\"\n0 2 \"top\"\n"
+      "$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 1 1 0\n$EndNodes\n$Elements\n4\n"
+      "1 2 2 1 1 1 2 3\n2 15 2 2 1 1\n3 15 2 2 2 2\n4 15 2 2 3 3\n$EndElements\n",
+      "a.msh");
   ASSERT_EQ(mesh.groups.size(), 2U);
-  EXPECT_EQ(mesh.groups[0].name, "top");
-  EXPECT_EQ(mesh.groups[1].name, "top");
-  EXPECT_EQ(mesh.corners.size(), 4U);
-  // One name in .inp too: the set of nodes that a set of elements has anyway is not written twice.
+  EXPECT_EQ(mesh.corners.size(), 3U);
   write_mesh(mesh, folder / "a.inp");
   const std::string text = test::file_text(folder / "a.inp");
   EXPECT_NE(text.find("NSET=top\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("top_2"), std::string::npos) << text;
 }
 
+/// Gmsh writes an element of two physical groups twice in version 2.2.
 TEST(Readers, MshUnitesElementsOfSeveralGroups) {
   const ShellMesh mesh = read_msh(
       "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"all of it\"\n2 2 "
@@ -165,82 +148,21 @@ TEST(Readers, MshUnitesElementsOfSeveralGroups) {
   EXPECT_EQ(members(mesh).at("2 top").size(), 1U);
 }
 
-TEST(Readers, BdfComesBackWithItsFaces) {
-  const TemporaryFolder folder;
-  for (const int order : {1, 2}) {
-    const ShellMesh mesh = ShellGrid(4, order).mesh();
-    write_mesh(mesh, folder / "a.bdf");
-    const ShellMesh back = read_mesh(folder / "a.bdf");
-    EXPECT_EQ(back.quads, mesh.quads);
-    EXPECT_EQ(back.midsides, mesh.midsides);
-    EXPECT_EQ(back.quad_faces, mesh.quad_faces);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i)
-      EXPECT_LT((back.points[i] - mesh.points[i]).norm(), 1e-9) << i;
-  }
-}
-
-TEST(Readers, BdfTakesFreeFieldsExponentsWithoutLetterAndNames) {
-  const ShellMesh mesh = read_bdf(
-      "SOL 101\nCEND\nTITLE = a plate\nBEGIN BULK\n$HMNAME PROP        4\"upper skin\" 4\n"
-      "GRID,1,,0.,0.,0.\nGRID,2,,1.+1,0.,0.\nGRID           3             10.    1.+1  -.25-1\n"
-      "GRID*                  4                              0.             10.\n*                     0.\n"
-      "MAT1,1,2.1+5,,0.3\nCTRIA3,1,4,1,2,3\nCTRIA3  2       9       1       3       4\nENDDATA\nrubbish\n",
-      "a.bdf");
-  ASSERT_EQ(mesh.points.size(), 4U);
-  EXPECT_EQ(mesh.points[1], Vector3(10, 0, 0));
-  EXPECT_EQ(mesh.points[2], Vector3(10, 10, -0.025));
-  EXPECT_EQ(mesh.points[3], Vector3(0, 10, 0));
-  EXPECT_EQ(mesh.triangle_faces, (std::vector<int>{4, 9}));
-  ASSERT_EQ(mesh.groups.size(), 1U);
-  EXPECT_EQ(mesh.groups[0].name, "upper skin");
-  EXPECT_EQ(mesh.groups[0].entities, std::vector<int>{4});
-}
-
-TEST(Readers, BdfTakesBlankPropertiesForNone) {
-  const TemporaryFolder folder;
-  test::write_text(folder / "a.bdf",
-                   "BEGIN BULK\nGRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,1.,1.,0.\nGRID,4,,0.,1.,0.\n"
-                   "CTRIA3,1,,1,2,3\nCTRIA3,2,,1,3,4\nENDDATA\n");
-  EXPECT_EQ(read_mesh(folder / "a.bdf").triangle_faces, (std::vector<int>{0, 0}));
-}
-
-TEST(Readers, BdfTakesQuadsOfNineNodesAndTellsOfBars) {
-  const TemporaryFolder folder;
-  std::string text = "BEGIN BULK\n";
-  const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
-  for (int i = 0; i < 9; ++i) text += fmt::format("GRID,{},,{:.1f},{:.1f},0.\n", i + 1, at[i][0], at[i][1]);
-  text += "CBAR,2,1,1,2\nCBAR,3,1,2,3\nCQUAD9,1,4,1,2,3,4,5,6,\n,7,8,9\nENDDATA\n";
-  test::write_text(folder / "a.bdf", text);
-  std::vector<std::string> notes;
-  const ShellMesh mesh = read_mesh(folder / "a.bdf", &notes);
-  EXPECT_EQ(mesh.quads.size(), 1U);
-  EXPECT_EQ(mesh.order, 2);
-  EXPECT_EQ(notes, std::vector<std::string>{"2 elements CBAR are left out"});
-}
-
 /// Gmsh writes the middle last. It is dropped, and midside nodes keep their sides.
 TEST(Readers, QuadsOfNineNodesLoseTheirMiddle) {
   const TemporaryFolder folder;
   const double at[9][2] = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 0}, {2, 1}, {1, 2}, {0, 1}, {1, 1}};
-  std::string inp = "*NODE\n", unv = "    -1\n  2411\n";
-  for (int i = 0; i < 9; ++i) {
-    inp += fmt::format("{}, {}, {}, 0\n", i + 1, at[i][0], at[i][1]);
-    unv += fmt::format("{} 1 1 11\n{} {} 0\n", i + 1, at[i][0], at[i][1]);
-  }
+  std::string inp = "*NODE\n";
+  for (int i = 0; i < 9; ++i) inp += fmt::format("{}, {}, {}, 0\n", i + 1, at[i][0], at[i][1]);
   inp += "*ELEMENT, type=M3D9, ELSET=all\n1, 1, 2, 3, 4, 5, 6, 7, 8, 9\n";
-  unv += "    -1\n    -1\n  2412\n1 95 1 1 7 9\n1 5 2 6 3 7 4 8\n9\n    -1\n";
   test::write_text(folder / "a.inp", inp);
-  test::write_text(folder / "a.unv", unv);
-  for (const char* name : {"a.inp", "a.unv"}) {
-    SCOPED_TRACE(name);
-    const ShellMesh mesh = read_mesh(folder / name);
-    ASSERT_EQ(mesh.quads.size(), 1U);
-    EXPECT_EQ(mesh.points.size(), 8U);
-    EXPECT_EQ(mesh.order, 2);
-    for (int side = 0; side < 4; ++side) {
-      const Vector3 &a = mesh.points[mesh.quads[0][side]], &b = mesh.points[mesh.quads[0][(side + 1) % 4]];
-      EXPECT_EQ(mesh.points[mesh.midsides[0][side]], (0.5 * (a + b)).eval());
-    }
+  const ShellMesh mesh = read_mesh(folder / "a.inp");
+  ASSERT_EQ(mesh.quads.size(), 1U);
+  EXPECT_EQ(mesh.points.size(), 8U);
+  EXPECT_EQ(mesh.order, 2);
+  for (int side = 0; side < 4; ++side) {
+    const Vector3 &a = mesh.points[mesh.quads[0][side]], &b = mesh.points[mesh.quads[0][(side + 1) % 4]];
+    EXPECT_EQ(mesh.points[mesh.midsides[0][side]], (0.5 * (a + b)).eval());
   }
 }
 
@@ -372,18 +294,7 @@ class DamagedFiles : public testing::TestWithParam<Damaged> {};
 INSTANTIATE_TEST_SUITE_P(
     Readers, DamagedFiles,
     testing::Values(
-        Damaged{"a.unv", "solid\n", "begins with -1"},
-        Damaged{"b.unv", "    -1\n  2411\n         1         1         1        11\n", "the file ends where"},
-        Damaged{"c.unv", "    -1\n  2411\n         1         1         1        11\n 0 0 x\n    -1\n",
-                "line 4: expected a node's z, found \"x\""},
-        Damaged{"d.unv", "    -1\n  2412\n  1  111  1  1  7  4\n 1 2 3 4\n    -1\n", "element 1 is a volume"},
-        Damaged{"e.unv", "    -1\n  2412\n  1  91  1  1  7  3\n 1 2 3\n    -1\n", "refers to node 1"},
-        Damaged{"a.bdf", "GRID,1,7,0.,0.,0.\nENDDATA\n", "coordinate system 7"},
-        Damaged{"b.bdf", "GRID,1,,0.,a,0.\nENDDATA\n", "found \"a\""},
-        Damaged{"c.bdf", "CTETRA,1,1,1,2,3,4\n", "CTETRA is a volume"},
-        Damaged{"d.bdf", "INCLUDE 'other.bdf'\n", "INCLUDE is not supported"},
-        Damaged{"e.bdf", "", "neither quads nor triangles"}, Damaged{"a.stl", "rubbish\n", "a.stl"},
-        Damaged{"a.ply", "ply\nformat ascii 1.0\n", "a.ply"},
+        Damaged{"a.stl", "rubbish\n", "a.stl"}, Damaged{"a.ply", "ply\nformat ascii 1.0\n", "a.ply"},
         Damaged{"a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 2 0\nf 1 2 3 4 5\n",
                 "polygon with 5 corners"},
         Damaged{"a.vtu", "<VTKFile", "a.vtu"}, Damaged{"a.vtk", "# vtk DataFile", "a.vtk"},
@@ -403,7 +314,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damaged{"d.vtk", vtk_quad("POINTS 4 double\n0 0 0\n1 0 0\n1e308 1 0\n0 1 0\n"),
                 "node 3 has no finite"},
         Damaged{"e.vtk", vtk_quad("POINTS 1000000000 double\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"), "e.vtk"},
-        Damaged{"a.xyz", "", "unknown mesh format (known are .msh, .inp, .unv, .bdf, .nas, .dat, "}),
+        Damaged{"a.xyz", "", "unknown mesh format (known are .msh, .inp, .stl, "},
+        Damaged{"a.unv", "", "Gmsh and meshio convert others to .msh"}),
     [](const auto& file) {
       std::string name = file.param.file;
       name[1] = '_';

@@ -60,8 +60,10 @@ def read_meshio(path):
                 seen.groups[name] = int((mesh.point_data["point_tags"] == number).sum())
     elif path.suffix == ".bdf":
         seen.group_count = len(set(numpy.concatenate(mesh.cell_data["nastran:ref"])))
-    elif path.suffix == ".vtu":
-        for kind in ("face", "edge", "vertex"):
+    elif path.suffix == ".su2":  # markers, which meshio numbers
+        seen.group_count = len({tag for tags in mesh.cell_data["su2:tag"] for tag in tags if tag > 0})
+    elif path.suffix in (".vtu", ".xdmf"):
+        for kind in ("face", "edge", "vertex") if path.suffix == ".vtu" else ("face",):
             numbers = numpy.concatenate(mesh.cell_data[kind])
             for number in set(numbers[numbers > 0]):
                 seen.groups[f"{kind.title()}{number}"] = int((numbers == number).sum())
@@ -156,10 +158,19 @@ def read_libmed(path):
 
 
 def read_dolfinx(path):
-    """By dolfinx, over Gmsh's Python module."""
+    """By dolfinx, .msh over Gmsh's Python module."""
+    from mpi4py import MPI
+
+    if path.suffix == ".xdmf":
+        from dolfinx.io import XDMFFile
+
+        with XDMFFile(MPI.COMM_WORLD, str(path), "r", XDMFFile.Encoding.ASCII) as file:
+            mesh = file.read_mesh(name="mesh")
+            numbers = file.read_meshtags(mesh, name="mesh").values
+        return Seen(nodes=len(mesh.geometry.x), quads=mesh.topology.index_map(2).size_global,
+                    groups={f"Face{number}": int((numbers == number).sum()) for number in set(numbers)})
     import dolfinx.io.gmshio
     import gmsh
-    from mpi4py import MPI
 
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)

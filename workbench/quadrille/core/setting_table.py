@@ -15,7 +15,7 @@ from typing import Any, Callable, Dict, List, Optional, SupportsIndex, Union
 #: One dict per setting, with the keys name, option, property, label, kind, use, unit, default, low, high, above_low,
 #: choices, otherwise, help.
 SETTINGS: List[Dict[str, Any]] = json.loads((Path(__file__).parent.parent / "settings.json").read_text(encoding="utf-8"))
-#: The mesher's mesh formats (ending, name, read, written, for_solvers, nine_nodes) and quality criteria (name, unit, ideal,
+#: The mesher's mesh formats (ending, name, read, written, for_solvers, quad_nodes) and quality criteria (name, unit, ideal,
 #: limit), under the keys "formats" and "criteria".
 TABLES: Dict[str, List[Dict[str, Any]]] = json.loads(
     (Path(__file__).parent.parent / "tables.json").read_text(encoding="utf-8"))

@@ -47,7 +47,7 @@ def mesh_object(
         analysis: a FEM analysis to add the mesh to.
         progress: called with the stage and the fraction of the work done; returning False cancels.
         command: path of the `quadrille` command; None = found by find_command().
-        outputs: mesh files to write as well: .inp, .msh, .unv, .med, .vtu, .vtk, .bdf.
+        outputs: mesh files to write as well: .inp, .msh, .unv, .med, .vtu, .vtk, .bdf, .xdmf, .su2.
         picture: a .png file for a picture of the mesh.
         settings: any other setting of the table, by name: sizes={"Face3": 0.5}, faces=[3], sew=0.01, partial=True; see
             `quadrille settings`.
@@ -240,7 +240,7 @@ def flip(mesh, faces: Sequence[Union[int, str]] = ()) -> None:
 
 
 def export(mesh, path: Union[str, Path]) -> None:
-    """Writes the mesh of a mesh object to a file; the suffix gives the format (.inp .msh .unv .med .vtu .vtk .bdf).
+    """Writes the mesh of a mesh object to a file; the suffix gives the format (.inp .msh .unv .med .vtu .vtk .bdf .xdmf .su2).
 
     The mesher runs again and writes the file with all sets and groups. The same shape and settings give the same mesh.
     """
