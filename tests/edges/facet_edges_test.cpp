@@ -67,15 +67,14 @@ TEST(FacetEdges, OfASmoothChainAreOnePolyline) {
   }
   EXPECT_EQ(passed, 14) << "both ends of all seven edges";
   for (const CadFace& face : joined.shape.faces) {
-    ASSERT_EQ(face.wires[0].coedges.size(), 4U);
-    Vector2 end(0, 0);
-    for (int round = 0; round < 2; ++round)  // each coedge begins where the last one ended
-      for (const Coedge& coedge : face.wires[0].coedges) {
-        const CadEdge& edge = joined.shape.edges[coedge.edge];
-        const Vector2 from = parametric_point(coedge, coedge.forward ? edge.first : edge.last);
-        if (round == 1) EXPECT_LT((from - end).norm(), 1e-6);
-        end = parametric_point(coedge, coedge.forward ? edge.last : edge.first);
-      }
+    const std::vector<Coedge>& coedges = face.wires[0].coedges;
+    ASSERT_EQ(coedges.size(), 4U);
+    const auto end_of = [&](const Coedge& coedge, bool last) {
+      const CadEdge& edge = joined.shape.edges[coedge.edge];
+      return parametric_point(coedge, coedge.forward == last ? edge.last : edge.first);
+    };
+    for (int i = 0; i < 4; ++i)  // each begins where the one before it ends
+      EXPECT_LT((end_of(coedges[i], false) - end_of(coedges[(i + 3) % 4], true)).norm(), 1e-6);
   }
 }
 

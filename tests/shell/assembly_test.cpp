@@ -98,7 +98,7 @@ TEST(Assembly, NotesNodesOffTheGeometryOnTheirFaces) {
   ShellMesh shell = shell_of(parts);
   ASSERT_EQ(shell.off_geometry.size(), 1U);
   EXPECT_EQ(shell.points[shell.off_geometry[0].node], mesh.points.back());
-  for (const FaceId id : parts.faces.ids()) shell.faces.push_back({.face = id.number()});
+  for (const FaceId id : parts.faces.ids()) shell.faces.emplace_back().face = id.number();
   note_off_geometry(shell);
   for (const ShellMesh::Face& entry : shell.faces) {
     EXPECT_EQ(entry.off_geometry, entry.face == face.number() ? 1 : 0);

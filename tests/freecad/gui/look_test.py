@@ -32,7 +32,7 @@ def dark():
 def dark_sheet():
     """FreeCAD's own dark style sheet: that of 0.20, or that of 1.0, whose accents have names. None in 1.1, where all colors have names."""
     sheets = [Path(FreeCAD.getResourceDir()) / "Gui" / "Stylesheets" / name for name in ("Behave-dark.qss", "FreeCAD Dark.qss")]
-    text = next((sheet.read_text() for sheet in sheets if sheet.is_file()), None)
+    text = next((sheet.read_text(encoding="utf-8") for sheet in sheets if sheet.is_file()), None)
     return re.sub(r"@ThemeAccentColor\d", "#5680c0", text) if text else None
 
 

@@ -56,6 +56,8 @@ def refresh(mesh) -> bool:
 def wanted_groups(mesh, fem_mesh) -> Groups:
     """The groups for constraints, mesh groups and the objects in a container: `<Name>_Nodes` of nodes, `<Name>_Faces` and
     `<Name>_Edges` of elements."""
+    if mesh.Shape is None:  # deleted while it was meshed
+        return {}
     sources = containers.faces_by_part(mesh.Shape)
     for name, source in [(member.Name, member) for member in _members(mesh)] + [
             (group.Label if group.UseLabel else group.Name, group) for group in mesh.MeshGroupList]:
