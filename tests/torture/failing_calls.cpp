@@ -108,6 +108,9 @@ __attribute__((constructor)) void start(int, char**, char** environment) {
   }
   if (const char* order = value_of("QUADRILLE_FAILING_CALL", environment)) read_order(order);
   ::pthread_atfork(nullptr, nullptr, count_anew);
+  // oneTBB's free() asks dlsym() at its first call for the C library's, and dlsym() frees the message of a
+  // library that was not found: without end, if that is the first call.
+  std::free(std::malloc(1));
   watching.store(true);
 }
 
