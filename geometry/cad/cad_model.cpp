@@ -132,6 +132,7 @@ void keep_pieces(CadShape& shape, std::vector<std::vector<int>> pieces) {
 void tell(const Orientation& orientation, std::vector<std::string>& problems) {
   const auto names = [](const char* kind, const std::vector<int>& numbers) {
     std::vector<std::string> all;
+    all.reserve(numbers.size());
     for (const int number : numbers) all.push_back(fmt::format("{}{}", kind, number));
     return first_few(all);
   };

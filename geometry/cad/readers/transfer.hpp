@@ -49,7 +49,7 @@ class HealingTools : public ShapeAlgo_ToolContainer {
   /// \param with_loops whether self-touching wires are cut into pieces, or left as they are in the file.
   explicit HealingTools(bool with_loops) : with_loops_(with_loops) {}
   Handle(ShapeFix_Shape) FixShape() const override {
-    const Handle(ShapeFix_Shape) fix = new Healing;
+    Handle(ShapeFix_Shape) fix = new Healing;
     if (!with_loops_) fix->FixFaceTool()->FixLoopWiresMode() = Standard_False;
     return fix;
   }
