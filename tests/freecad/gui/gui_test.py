@@ -415,6 +415,7 @@ class GuiTest(GuiCase):
                     one, other = (groups[f"{label}_Faces"] for label in labels)
                     self.assertEqual(len(one), len(other))
                     self.assertEqual(bool(one & other), answer)
+                    self.assertFalse(quadrille.document.groups.refresh(mesh), "they stay when constraints change")
                     close_panel(QtGui.QDialogButtonBox.Cancel)
         container.Group[-2].Placement.Base.x = 15
         self.document.recompute()

@@ -6,6 +6,8 @@ import time
 from itertools import combinations
 from typing import Dict, List, Set
 
+from . import shapes
+
 #: Seconds after which looking for solids that touch ends.
 _PATIENCE = 2.0
 #: Distance of solids that count as touching, as a share of the diagonal.
@@ -54,21 +56,16 @@ def common_container(parts):
 
 
 def faces_by_part(whole) -> Dict[str, List[str]]:
-    """The faces ("Face3") of each object in a container or compound, by its label; empty for other objects, and where the solids are not
-    those of its objects one after the other."""
+    """The faces ("Face3") of each object in a container or compound, by its label; empty for other objects and None, and where the
+    solids are not those of its objects one after the other."""
+    if whole is None:
+        return {}
     is_container = whole.isDerivedFrom("App::Part")
     children = [child for child in (whole.Group if is_container else getattr(whole, "Links", ()))
                 if (child.Visibility or not is_container) and getattr(getattr(child, "Shape", None), "Solids", None)]
-    shape = whole.Shape if len(children) > 1 else None  # once: a container makes a new one each time
-    solids, faces = (shape.Solids, shape.Faces) if shape else ((), ())
     owners = [child.Label for child in children for _ in child.Shape.Solids]
-    if len(owners) != len(solids):
-        return {}
-    numbers: Dict[int, List[int]] = {}
-    for number, face in enumerate(faces, 1):
-        numbers.setdefault(face.hashCode(), []).append(number)
+    solids = shapes.faces_of_solids(whole.Shape) if len(children) > 1 else []
     found: Dict[str, List[str]] = {}
-    for label, solid in zip(owners, solids):
-        found.setdefault(label, []).extend(f"Face{number}" for face in solid.Faces for number in numbers.get(face.hashCode(), ())
-                                           if faces[number - 1].isSame(face))
+    for label, faces in zip(owners, solids) if len(owners) == len(solids) else ():
+        found.setdefault(label, []).extend(faces)
     return found

@@ -22,8 +22,9 @@ Hint = Callable[[object, object], None]
 
 
 def add_groups(mesh, fem_mesh) -> None:
-    """Adds the groups that the mesh object's analysis and group list need to a mesh that was just read."""
-    for (name, kind), ids in wanted_groups(mesh, fem_mesh).items():
+    """Adds the groups that the mesh object's analysis and group list need, and those of the objects in a container, to a mesh that
+    was just read."""
+    for (name, kind), ids in _groups(fem_mesh, {**containers.faces_by_part(mesh.Shape), **_references(mesh)}).items():
         number = fem_mesh.addGroup(name, kind)
         fem_mesh.addGroupElements(number, list(ids))
 
@@ -31,12 +32,14 @@ def add_groups(mesh, fem_mesh) -> None:
 def refresh(mesh) -> bool:
     """Updates the groups of a meshed object to its analysis. Returns True if they have changed."""
     fem_mesh = mesh.FemMesh
-    wanted = wanted_groups(mesh, fem_mesh)
+    references = _references(mesh)
+    wanted = _groups(fem_mesh, references)
+    parts = containers.faces_by_part(mesh.Shape).keys() - references.keys()  # theirs stay as they are
     present: Groups = {}
     numbers = {}
     for number in fem_mesh.Groups:
         name = fem_mesh.getGroupName(number)
-        if _is_part_group(name):
+        if _is_part_group(name) or name.rpartition("_")[0] in parts:
             continue
         key = (name, fem_mesh.getGroupElementType(number))
         present[key] = tuple(sorted(fem_mesh.getGroupElements(number)))
@@ -53,18 +56,22 @@ def refresh(mesh) -> bool:
     return True
 
 
-def wanted_groups(mesh, fem_mesh) -> Groups:
-    """The groups for constraints, mesh groups and the objects in a container: `<Name>_Nodes` of nodes, `<Name>_Faces` and
-    `<Name>_Edges` of elements."""
-    if mesh.Shape is None:  # deleted while it was meshed
-        return {}
-    sources = containers.faces_by_part(mesh.Shape)
+def _references(mesh) -> Dict[str, List[str]]:
+    """What the constraints and mesh groups refer to, by their names; nothing if the part was deleted."""
+    found: Dict[str, List[str]] = {}
+    if mesh.Shape is None:
+        return found
     for name, source in [(member.Name, member) for member in _members(mesh)] + [
             (group.Label if group.UseLabel else group.Name, group) for group in mesh.MeshGroupList]:
         try:
-            sources[name] = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References)
+            found[name] = shapes.references_to_names(mesh.Shape.Shape, mesh.Shape, source.References)
         except Error as error:
             FreeCAD.Console.PrintWarning(f"{mesh.Label}: no group for {source.Label}: {error}\n")
+    return found
+
+
+def _groups(fem_mesh, sources: Dict[str, List[str]]) -> Groups:
+    """The groups of elements of the part, by name: `<Name>_Nodes` of nodes, `<Name>_Faces` and `<Name>_Edges` of elements."""
     if not sources:
         return {}
     part_groups = PartGroups(fem_mesh)

@@ -218,5 +218,14 @@ def _faces_of_solid(shape, number: int) -> List[str]:
     if not 1 <= number <= len(shape.Solids):
         raise Error(translate(
             "Quadrille", "Solid{}: is not in the meshed part").format(number), "usage", f"Solid{number}")
-    faces = shape.Solids[number - 1].Faces
-    return [f"Face{i}" for i, face in enumerate(shape.Faces, 1) if any(face.isSame(other) for other in faces)]
+    return faces_of_solids(shape)[number - 1]
+
+
+def faces_of_solids(shape) -> List[List[str]]:
+    """The faces ("Face3") of each solid of a shape."""
+    faces = shape.Faces
+    numbers: Dict[int, List[int]] = {}  # by hash: equal faces have equal ones, and a few others may
+    for number, face in enumerate(faces, 1):
+        numbers.setdefault(face.hashCode(), []).append(number)
+    return [[f"Face{number}" for face in solid.Faces for number in numbers.get(face.hashCode(), ()) if faces[number - 1].isSame(face)]
+            for solid in shape.Solids]

@@ -47,7 +47,7 @@ class Scrolled(QtGui.QWidget):
 
     def showEvent(self, event) -> None:
         """Qt calls this when the panel is shown."""
-        # FreeCAD 0.20 and 1.0 draw their task boxes light whatever the palette, and light text is not seen there.
+        # FreeCAD 0.20 draws its task boxes light whatever the palette, and light text is not seen there.
         self.setAutoFillBackground(self.palette().color(QtGui.QPalette.WindowText).lightness() > 128)
         if self._outer is None:
             around = self.parentWidget()
