@@ -281,14 +281,16 @@ void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>&
   }
   ShapeUpgrade_UnifySameDomain unify(shell, Standard_False, Standard_True, Standard_False);
   unify.KeepShapes(kept_edges);
-  bool built = false;
+  bool several = own.size() > 1;
   try {
-    if (own.size() > 1) unify.Build();
-    built = own.size() > 1;
+    if (several) unify.Build();
   } catch (const Standard_Failure&) {  // as at some seams; the faces are right as they are
+    several = false;
   }
-  if (!built) merged.insert(merged.end(), own.begin(), own.end());
-  if (!built) return;
+  if (!several) {
+    merged.insert(merged.end(), own.begin(), own.end());
+    return;
+  }
   TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
   TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
   for (int i = 1; i <= unified.Extent(); ++i) {

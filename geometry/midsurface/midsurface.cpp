@@ -484,10 +484,8 @@ std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
 std::string narrow_sentence(const SolidMiddle& middle, const Skin& skin) {
   return fmt::format(
       "{}: walls are less than {:g} times as wide as thick (between {}): where such walls bend across, or "
-      "the "
-      "section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare it "
-      "with "
-      "a mesh of the solid",
+      "the section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare "
+      "it with a mesh of the solid",
       middle.name, slender, face_names(numbers_of(skin, middle.narrow)));
 }
 

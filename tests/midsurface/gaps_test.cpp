@@ -7,23 +7,18 @@
 
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
-#include <TopoDS_Compound.hxx>
 
 #include "geometry/midsurface/solids.hpp"
+#include "tests/models/trouble_models.hpp"
 
 namespace quadrille {
 namespace {
 
 /// Two plates of thickness 2 in a T: the second one stands this far above the first.
 TopoDS_Shape tee(double gap) {
-  TopoDS_Compound both;
-  const BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(40, 30, 2)).Shape());
-  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(19, 0, 2 + gap), gp_Pnt(21, 30, 30)).Shape());
-  return both;
+  return compound({BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(40, 30, 2)).Shape(),
+                   BRepPrimAPI_MakeBox(gp_Pnt(19, 0, 2 + gap), gp_Pnt(21, 30, 30)).Shape()});
 }
 
 double volume(const TopoDS_Shape& shape) {

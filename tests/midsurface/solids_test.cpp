@@ -6,24 +6,20 @@
 
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS_Compound.hxx>
 
 #include <set>
+
+#include "tests/models/trouble_models.hpp"
 
 namespace quadrille {
 namespace {
 
 TopoDS_Shape boxes(bool overlap) {
-  TopoDS_Compound both;
-  const BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(10, 10, 2)).Shape());
-  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(4, 0, overlap ? 1 : 9), gp_Pnt(6, 10, 12)).Shape().Reversed());
-  return both;
+  return compound({BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(10, 10, 2)).Shape(),
+                   BRepPrimAPI_MakeBox(gp_Pnt(4, 0, overlap ? 1 : 9), gp_Pnt(6, 10, 12)).Shape().Reversed()});
 }
 
 TEST(Solids, HaveTheMaterialInsideAndTheModelsNumbers) {

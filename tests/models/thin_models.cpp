@@ -19,7 +19,6 @@
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeWedge.hxx>
-#include <BRep_Builder.hxx>
 #include <GC_MakeArcOfCircle.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <Geom_BSplineCurve.hxx>
@@ -30,11 +29,12 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Wire.hxx>
 #include <cmath>
 #include <gp_Ax2.hxx>
 #include <gp_Vec.hxx>
+
+#include "tests/models/trouble_models.hpp"
 
 namespace quadrille {
 
@@ -453,14 +453,6 @@ TopoDS_Shape thick_block() {
   return box(0, 0, 0, 30, 20, 10);
 }
 
-TopoDS_Shape together(const std::vector<TopoDS_Shape>& solids) {
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (const TopoDS_Shape& solid : solids) builder.Add(result, solid);
-  return result;
-}
-
 /// A tube along x from a corner, square outside.
 TopoDS_Shape tube_along_x(double x, double y, double z, double length, double wide, double wall) {
   const double inside = wide - 2 * wall;
@@ -472,7 +464,7 @@ TopoDS_Shape welded_frame(double gap, double wide) {
   for (const double x : {-20.0, 180.0})
     parts.push_back(cut(box(x, 0, 0, 40, 40, 200), {box(x + 3, 3, -1, 34, 34, 202)}));
   parts.push_back(tube_along_x(20 + gap, 20 - 0.5 * wide, 130, 160 - 2 * gap, wide, 2));
-  return together(parts);
+  return compound(parts);
 }
 
 /// Two square tubes that meet in a miter, one of them set off along the other.
@@ -485,13 +477,13 @@ TopoDS_Shape mitered_frame(double gap) {
           .Shape();
   mirror.SetMirror(gp_Ax2(gp_Pnt(0, 0, 0), gp_Dir(1, -1, 0)));
   apart.SetTranslation(gp_Vec(-gap, 0, 0));
-  return together({one, BRepBuilderAPI_Transform(one, apart * mirror).Shape()});
+  return compound({one, BRepBuilderAPI_Transform(one, apart * mirror).Shape()});
 }
 
 /// An I-beam between two plates.
 TopoDS_Shape beam_between_plates(double gap) {
   const TopoDS_Shape beam = profile({i_outline(60, 100, 4, 6, 0)}, 200);
-  return together({beam, box(-10, -10, -4 - gap, 80, 120, 4), box(-10, -10, 200 + gap, 80, 120, 4)});
+  return compound({beam, box(-10, -10, -4 - gap, 80, 120, 4), box(-10, -10, 200 + gap, 80, 120, 4)});
 }
 
 /// A column of I-section, a tube that stands off from it, and a brace between them at 45 degrees, all a
@@ -507,7 +499,7 @@ TopoDS_Shape braced_frame() {
   turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp::DX()), M_PI / 4);
   const TopoDS_Shape straight = cut(box(-10, 0, 0, 20, 200, 20), {box(-8, -1, 2, 16, 202, 16)});
   const TopoDS_Shape brace = BRepBuilderAPI_Transform(straight, lift * turn).Shape();
-  return together({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
+  return compound({column, beam, BRepAlgoAPI_Common(brace, box(-50, 50.3, 0, 100, 400, 179.7)).Shape()});
 }
 
 TopoDS_Shape tube(double z, double length, double outer, double inner) {
@@ -537,14 +529,14 @@ const std::vector<JoinedModel>& joined_models() {
       {"beam_between_plates", [] { return beam_between_plates(0.5); }, 3, 2 * 80 * 120 + 205 * 214, {4, 6}},
       {"plates_end_to_end",
        [] {
-         return together({box(0, 0, 0, 50, 60, 2), box(51, 0, 0, 50, 60, 2)});
+         return compound({box(0, 0, 0, 50, 60, 2), box(51, 0, 0, 50, 60, 2)});
        },
        2,
        101 * 60,
        {2}},
       {"plate_on_plate",
        [] {
-         return together({box(0, 0, 0, 100, 60, 3), box(49, 0, 3.5, 2, 60, 40)});
+         return compound({box(0, 0, 0, 100, 60, 3), box(49, 0, 3.5, 2, 60, 40)});
        },
        2,
        100 * 60 + 60 * 42,
@@ -552,35 +544,35 @@ const std::vector<JoinedModel>& joined_models() {
       // Where they lie on each other it is as thick as both with the gap.
       {"lap",
        [] {
-         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2.5, 60, 40, 2)});
+         return compound({box(0, 0, 0, 60, 40, 2), box(40, 0, 2.5, 60, 40, 2)});
        },
        2,
        100 * 40 + 2 * 40 * 1.25,
        {2, 4.5}},
       {"lap_of_two_thicknesses",
        [] {
-         return together({box(0, 0, 0, 60, 40, 2), box(40, 0, 2, 60, 40, 3)});
+         return compound({box(0, 0, 0, 60, 40, 2), box(40, 0, 2, 60, 40, 3)});
        },
        2,
        100 * 40 + 40 * (1.5 + 1),
        {2, 3, 5}},
       {"crossed_bars",
        [] {
-         return together({box(0, 20, 0, 80, 20, 2), box(30, -10, 2.4, 20, 80, 3)});
+         return compound({box(0, 20, 0, 80, 20, 2), box(30, -10, 2.4, 20, 80, 3)});
        },
        2,
        20 * (80 + 60) + 2 * 20 * (1.7 + 1.2),
        {2, 3, 5.4}},
       {"sheet_with_doubler",
        [] {
-         return together({box(0, 0, 0, 100, 80, 2), box(30, 20, 2, 40, 40, 2)});
+         return compound({box(0, 0, 0, 100, 80, 2), box(30, 20, 2, 40, 40, 2)});
        },
        2,
        100 * 80 + 4 * 40,
        {2, 4}},
       {"square_tube_on_round_one",
        [] {
-         return together({cut(drill(0, 0, 0, gp::DZ(), 30, 150), {drill(0, 0, -1, gp::DZ(), 27, 152)}),
+         return compound({cut(drill(0, 0, 0, gp::DZ(), 30, 150), {drill(0, 0, -1, gp::DZ(), 27, 152)}),
                           tube_along_x(31, -6, 60, 120, 12, 1.5)});
        },
        2,
@@ -589,21 +581,21 @@ const std::vector<JoinedModel>& joined_models() {
       // Gaps between bent faces; where both walls face each other they are one with what fills the gap.
       {"tube_in_sleeve",
        [] {
-         return together({tube(0, 100, 30, 27), tube(20, 60, 34, 31)});
+         return compound({tube(0, 100, 30, 27), tube(20, 60, 34, 31)});
        },
        2,
        2 * M_PI * (28.5 * 40 + 30.5 * 60) + 2 * ring(30.5, 28.5),
        {3, 7}},
       {"sleeve_at_end",
        [] {
-         return together({tube(0, 100, 30, 27), tube(60, 100, 34, 31)});
+         return compound({tube(0, 100, 30, 27), tube(60, 100, 34, 31)});
        },
        2,
        2 * M_PI * (28.5 * 60 + 30.5 * 40 + 32.5 * 60) + ring(30.5, 28.5) + ring(32.5, 30.5),
        {3, 7}},
       {"tube_through_plate",
        [] {
-         return together({tube(0, 100, 30, 27),
+         return compound({tube(0, 100, 30, 27),
                           cut(box(-50, -50, 48, 100, 100, 4), {drill(0, 0, 40, gp::DZ(), 31, 20)})});
        },
        2,
@@ -613,7 +605,7 @@ const std::vector<JoinedModel>& joined_models() {
        [] {
          const gp_Dir up(1, 0, 1);
          const TopoDS_Shape brace = cut(drill(0, 0, 30, up, 15, 150), {drill(-1, 0, 29, up, 13, 153)});
-         return together({tube(0, 150, 30, 27), cut(brace, {drill(0, 0, -50, gp::DZ(), 31, 250)})});
+         return compound({tube(0, 150, 30, 27), cut(brace, {drill(0, 0, -50, gp::DZ(), 31, 250)})});
        },
        2,
        0,
@@ -621,7 +613,7 @@ const std::vector<JoinedModel>& joined_models() {
       {"saddle_on_tube",
        [] {
          const gp_Ax2 place(gp_Pnt(0, 0, 20), gp::DZ());
-         return together(
+         return compound(
              {tube(0, 100, 30, 27), cut(BRepPrimAPI_MakeCylinder(place, 34, 60, 0.5 * M_PI).Shape(),
                                         {drill(0, 0, 0, gp::DZ(), 31, 100)})});
        },

@@ -926,12 +926,8 @@ std::vector<TroubleModel> all_models() {
 TopoDS_Shape rod_in_sleeve(double length) {
   const gp_Ax2 low(gp_Pnt(0, 0, 0), gp::DZ()), foot(gp_Pnt(0, 0, 5 - length / 2), gp::DZ());
   const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(low, 3, 10).Shape();
-  TopoDS_Compound both;
-  const BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, BRepPrimAPI_MakeCylinder(foot, 3, length).Shape());
-  builder.Add(both, BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(low, 6, 10).Shape(), hole).Shape());
-  return both;
+  return compound({BRepPrimAPI_MakeCylinder(foot, 3, length).Shape(),
+                   BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(low, 6, 10).Shape(), hole).Shape()});
 }
 
 TopoDS_Shape tiny_cusp() {
