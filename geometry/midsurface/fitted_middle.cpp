@@ -7,9 +7,9 @@
 #include <BRep_Tool.hxx>
 #include <BSplCLib.hxx>
 #include <BSplSLib.hxx>
-#include <GeomConvert.hxx>
 #include <GeomLib.hxx>
 #include <Geom_BSplineCurve.hxx>
+#include <Geom_BSplineSurface.hxx>
 #include <Geom_BoundedCurve.hxx>
 #include <Geom_BoundedSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
@@ -266,8 +266,7 @@ class MiddlePoints {
   std::map<std::pair<double, double>, std::optional<gp_Pnt>> known_;
 };
 
-std::optional<Handle(Geom_BSplineSurface)> interpolate(MiddlePoints& points,
-                                                       const std::array<GridLine, 2>& grid) {
+std::optional<Handle(Geom_Surface)> interpolate(MiddlePoints& points, const std::array<GridLine, 2>& grid) {
   TColgp_Array2OfPnt poles(1, grid[0].count(), 1, grid[1].count());
   for (int i = 0; i < grid[0].count(); ++i) {
     for (int j = 0; j < grid[1].count(); ++j) {
@@ -285,8 +284,8 @@ std::optional<Handle(Geom_BSplineSurface)> interpolate(MiddlePoints& points,
 }
 
 /// The largest error of the surface between grid points along one direction.
-std::optional<double> off_along(int direction, const Handle(Geom_BSplineSurface) & surface,
-                                MiddlePoints& points, const std::array<GridLine, 2>& grid) {
+std::optional<double> off_along(int direction, const Handle(Geom_Surface) & surface, MiddlePoints& points,
+                                const std::array<GridLine, 2>& grid) {
   const GridLine &along = grid[direction], &across = grid[1 - direction];
   double off = 0;
   for (int i = 0; i + 1 < along.count(); ++i) {
@@ -379,10 +378,11 @@ void run_on(FittedProfile& profile, double margin, const gp_Lin& axis, const std
   }
 }
 
-/// The profile at the middle of an angle, turned around the axis by that angle and a little farther.
-std::optional<Handle(Geom_BSplineSurface)> revolved(const FittedProfile& profile, const gp_Ax1& axis,
-                                                    double angle, double margin,
-                                                    const std::array<int, 4>& beside) {
+/// The profile at the middle of an angle, turned around the axis by that angle and a little farther. It stays
+/// a surface of revolution: a rational B-spline has poles at twice the radius, and OpenCASCADE 7.8 takes over
+/// five minutes to cut it.
+Handle(Geom_Surface) revolved(const FittedProfile& profile, const gp_Ax1& axis, double angle, double margin,
+                              const std::array<int, 4>& beside) {
   constexpr double whole = 2 * M_PI;
   double radius = 0;
   for (int i = 1; i <= profile.curve->NbPoles(); ++i)
@@ -391,12 +391,10 @@ std::optional<Handle(Geom_BSplineSurface)> revolved(const FittedProfile& profile
   const double farther = goes_on ? std::min(margin / radius, 0.45 * (whole - angle)) : 0;
   const double turn = std::min(angle + 2 * farther, whole);
   const Handle(Geom_Curve) start = Handle(Geom_Curve)::DownCast(profile.curve->Rotated(axis, -0.5 * turn));
-  const Handle(Geom_Surface) surface = new Geom_RectangularTrimmedSurface(
-      new Geom_SurfaceOfRevolution(start, axis), 0, turn, start->FirstParameter(), start->LastParameter());
-  const Handle(Geom_BSplineSurface) result = GeomConvert::SurfaceToBSplineSurface(surface);
-  if (result.IsNull()) return std::nullopt;
-  if (result->IsUPeriodic()) result->SetUNotPeriodic();
-  return result;
+  const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(start, axis);
+  // OpenCASCADE gives a trimmed surface no seam.
+  if (turn > whole - Precision::Angular()) return surface;
+  return new Geom_RectangularTrimmedSurface(surface, 0, turn, true);
 }
 
 /// The ranges of the first side's surface parameters that both sides cover.
@@ -415,9 +413,9 @@ std::array<ParameterRange, 2> common_range(const Skin& skin, const std::array<st
 
 /// Extends a surface straight by the margin at the ends that are neither closed nor shared with the middle
 /// beside.
-Handle(Geom_BSplineSurface)
-    run_on(const Handle(Geom_BSplineSurface) & surface, double margin, const std::array<int, 4>& beside) {
-  Handle(Geom_BoundedSurface) result(surface);
+Handle(Geom_Surface)
+    run_on(const Handle(Geom_Surface) & surface, double margin, const std::array<int, 4>& beside) {
+  auto result = Handle(Geom_BoundedSurface)::DownCast(surface);
   for (const bool in_u : {true, false}) {
     if (in_u ? surface->IsUClosed() : surface->IsVClosed()) continue;
     for (const int after : {0, 1}) {
@@ -425,7 +423,7 @@ Handle(Geom_BSplineSurface)
         GeomLib::ExtendSurfByLength(result, margin, 1, in_u, after == 1);
     }
   }
-  return Handle(Geom_BSplineSurface)::DownCast(result);
+  return result;
 }
 
 }  // namespace
@@ -443,13 +441,10 @@ std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::v
                                1e-6 * skin.size(), tolerance);
     if (!profile) return std::nullopt;
     run_on(*profile, margin, line, beside);
-    const auto surface = revolved(*profile, *axis, ranges[0].length(), margin, beside);
-    return surface ? std::optional(FittedMiddle{*surface, profile->off}) : std::nullopt;
+    return FittedMiddle{revolved(*profile, *axis, ranges[0].length(), margin, beside), profile->off};
   }
   auto result = fit(points, ranges, tolerance);
-  if (!result) return std::nullopt;
-  result->surface = run_on(result->surface, margin, beside);
-  if (result->surface.IsNull()) return std::nullopt;
+  if (result) result->surface = run_on(result->surface, margin, beside);
   return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The middle of two sides that have no exact middle surface, as a B-spline. Internal.
+/// The middle of two sides that have no exact middle surface, as a B-spline or a revolved one. Internal.
 
-#include <Geom_BSplineSurface.hxx>
+#include <Geom_Surface.hxx>
 #include <array>
 #include <optional>
 #include <vector>
@@ -14,7 +14,7 @@ namespace quadrille {
 constexpr double most_tolerances = 10;
 
 struct FittedMiddle {
-  Handle(Geom_BSplineSurface) surface;
+  Handle(Geom_Surface) surface;
   double off = 0;  ///< largest distance found from the true middle
 };
 

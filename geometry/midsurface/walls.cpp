@@ -2,7 +2,9 @@
 
 #include "geometry/midsurface/walls.hpp"
 
+#include <GeomAdaptor_Surface.hxx>
 #include <GeomLProp_SLProps.hxx>
+#include <TColStd_Array1OfReal.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
@@ -200,10 +202,13 @@ bool has_two_flats(const Skin& skin, const Wall& wall) {
 
 /// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
 /// skin inside the bend would turn over. Where both radii of a bend are equal, its middle is nearly a corner.
-bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_BSplineSurface) & middle) {
+bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_Surface) & middle) {
   constexpr double max_bend = 0.9;  // half the thickness over the radius
-  std::array<double, 4> range{};
-  middle->Bounds(range[0], range[1], range[2], range[3]);
+  const GeomAdaptor_Surface surface(middle);
+  TColStd_Array1OfReal us(1, surface.NbUIntervals(GeomAbs_CN) + 1),
+      vs(1, surface.NbVIntervals(GeomAbs_CN) + 1);
+  surface.UIntervals(us, GeomAbs_CN);
+  surface.VIntervals(vs, GeomAbs_CN);
   GeomLProp_SLProps at(middle, 2, 1e-9);
   const auto is_tight = [&](double u, double v) {
     at.SetParameters(u, v);
@@ -213,12 +218,12 @@ bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_B
     return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > max_bend;
   };
   for (const double share : {0.25, 0.5, 0.75}) {
-    const double u = (1 - share) * range[0] + share * range[1];
-    const double v = (1 - share) * range[2] + share * range[3];
-    for (int i = 1; i < middle->NbUKnots(); ++i)
-      if (is_tight(0.5 * (middle->UKnot(i) + middle->UKnot(i + 1)), v)) return true;
-    for (int i = 1; i < middle->NbVKnots(); ++i)
-      if (is_tight(u, 0.5 * (middle->VKnot(i) + middle->VKnot(i + 1)))) return true;
+    const double u = (1 - share) * us.First() + share * us.Last();
+    const double v = (1 - share) * vs.First() + share * vs.Last();
+    for (int i = 1; i < us.Length(); ++i)
+      if (is_tight(0.5 * (us(i) + us(i + 1)), v)) return true;
+    for (int i = 1; i < vs.Length(); ++i)
+      if (is_tight(u, 0.5 * (vs(i) + vs(i + 1)))) return true;
   }
   return false;
 }
