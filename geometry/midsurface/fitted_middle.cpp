@@ -391,7 +391,7 @@ Handle(Geom_Surface) revolved(const FittedProfile& profile, const gp_Ax1& axis, 
   const double farther = goes_on ? std::min(margin / radius, 0.45 * (whole - angle)) : 0;
   const double turn = std::min(angle + 2 * farther, whole);
   const Handle(Geom_Curve) start = Handle(Geom_Curve)::DownCast(profile.curve->Rotated(axis, -0.5 * turn));
-  const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(start, axis);
+  Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(start, axis);
   // OpenCASCADE gives a trimmed surface no seam.
   if (turn > whole - Precision::Angular()) return surface;
   return new Geom_RectangularTrimmedSurface(surface, 0, turn, true);
