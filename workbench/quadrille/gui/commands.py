@@ -21,11 +21,11 @@ from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
-               progress_bar, tell, tell_briefly, transaction, translate, views)
+               progress_bar, solve, tell, tell_briefly, transaction, translate, views)
 from .length_field import LengthField
 from .mesh_clicks import picked
 
-TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
+TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Solve", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
 #: The file formats that the mesher writes, for the file dialog, which shows the first.
 FORMATS = {row["name"]: row["ending"][1:] for row in sorted(TABLES["formats"], key=lambda row: bool(row["ending"] != ".inp"))
@@ -187,6 +187,40 @@ class MeshCommand(_Command):
         if self._made:
             self._edit.ViewObject.Proxy.made_by = self.step
         FreeCADGui.getDocument(self._edit.Document.Name).setEdit(self._edit.Name)
+
+
+class SolveCommand(_Command):
+    """Solves with CalculiX."""
+
+    name = "Quadrille_Solve"
+    text = QT_TRANSLATE_NOOP("Quadrille_Solve", "Solve")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Solve", "Solve the analysis of a quad mesh with CalculiX, and show the stresses")
+    pixmap = "quadrille_solve"
+    accelerator = "Q, V"
+    step = "Solve"
+
+    def IsActive(self) -> bool:
+        """Also while a mesh's panel is open, which needs no OK then."""
+        return FreeCAD.ActiveDocument is not None and (self._panel() is not None or super().IsActive())
+
+    def Activated(self, _index: int = 0) -> None:
+        """FreeCAD calls this when the command is clicked. What an open panel did is kept."""
+        panel = self._panel()
+        if panel is None or panel.accept():
+            super().Activated()
+
+    @staticmethod
+    def _panel():
+        """The panel of a mesh, if it is open."""
+        edited = FreeCADGui.ActiveDocument.getInEdit()
+        return getattr(getattr(edited, "Proxy", None), "panel", None)
+
+    def run(self) -> None:
+        self._mesh = _meshed_in_question()
+        self._result = solve.solve(self._mesh)
+
+    def afterwards(self) -> None:
+        solve.show(self._mesh, self._result)
 
 
 class MiddleCommand(_Command):
@@ -468,7 +502,7 @@ class ExportCommand(_Command):
 
 
 #: The commands by the names under which FreeCAD knows them.
-COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SurfaceCommand, RefineCommand, QualityCommand,
+COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SolveCommand, SurfaceCommand, RefineCommand, QualityCommand,
                                                   NormalsCommand, FlipCommand, AdaptCommand, ExportCommand)}
 
 

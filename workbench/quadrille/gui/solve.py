@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Solves a mesh's analysis with CalculiX and shows the stresses. FreeCAD writes the input and reads the results; CalculiX runs in a
+process of its own. FreeCAD's own command blocks the window until CalculiX has ended, and its panel while results are read."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Callable
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore
+
+from ..core.errors import Error
+from ..document.groups import analysis_of
+from . import progress_bar, translate
+
+#: Milliseconds between two looks at what runs; nodes after which the window lives while stresses are computed for each.
+_INTERVAL, _NODES = 30, 500
+_CCX = "User parameter:BaseApp/Preferences/Mod/Fem/Ccx"
+
+
+def tools_of(mesh):
+    """FreeCAD's tools for CalculiX, ready to write the input. Raises Error if something is missing."""
+    from femtools import ccxtools
+
+    analysis = analysis_of(mesh)
+    solvers = [obj for obj in analysis.Group if getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"] \
+        if analysis is not None else []
+    if len(solvers) != 1:
+        raise Error(translate("Quadrille", "{}: needs an analysis with one solver object CalculiX (ccx tools)").format(mesh.Label),
+                    "usage", mesh.Name)
+    tools = ccxtools.FemToolsCcx(analysis, solvers[0])
+    tools.update_objects()
+    tools.setup_working_dir()
+    tools.setup_ccx()
+    missing = tools.check_prerequisites()
+    if missing or not tools.ccx_binary_present:
+        raise Error(missing.strip() or translate("Quadrille", "CalculiX is not installed"), "usage", mesh.Name)
+    return tools
+
+
+def solve(mesh):
+    """Solves, behind a bar. Returns the result object; the analysis keeps its older results until there are new ones. Raises Error."""
+    tools = tools_of(mesh)
+    with progress_bar(translate("Quadrille", "Solving {}").format(mesh.Label), busy=True) as lives:
+        def live() -> None:
+            if not lives("", 0):
+                raise Error(translate("Quadrille", "the work was cancelled"), "cancelled")
+
+        tools.write_inp_file()
+        _run(tools, live)
+        with _alive(Path(tools.inp_file_name).with_suffix(".frd"), live):
+            tools.reset_mesh_purge_results_checked()
+            tools.load_results()
+    results = [obj for obj in tools.analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]
+    if not results:
+        raise Error(translate("Quadrille", "{}: CalculiX gave no results: see the report view").format(mesh.Label), "failure", mesh.Name)
+    return results[-1]
+
+
+def _run(tools, live: Callable[[], None]) -> None:
+    """Runs CalculiX; kills it if live() raises."""
+    process = QtCore.QProcess()
+    environment = QtCore.QProcessEnvironment.systemEnvironment()
+    threads = FreeCAD.ParamGet(_CCX).GetInt("AnalysisNumCPUs", 1)  # FreeCAD takes 1 for all
+    environment.insert("OMP_NUM_THREADS", str(threads if threads > 1 else os.cpu_count() or 1))
+    process.setProcessEnvironment(environment)
+    process.setProcessChannelMode(QtCore.QProcess.MergedChannels)
+    model = Path(tools.inp_file_name)
+    process.setWorkingDirectory(str(model.parent))
+    process.start(tools.ccx_binary, ["-i", model.stem])
+    try:
+        process.waitForStarted()
+        while process.state() != QtCore.QProcess.NotRunning:
+            process.waitForFinished(_INTERVAL)
+            live()
+    except BaseException:
+        process.kill()
+        process.waitForFinished()
+        raise
+    told = bytes(process.readAll()).decode(errors="replace")
+    if process.exitStatus() != QtCore.QProcess.NormalExit or process.exitCode() or "*ERROR" in told:
+        FreeCAD.Console.PrintError(told)
+        reason = next((line.strip() for line in told.splitlines() if "*ERROR" in line), "")
+        raise Error(translate("Quadrille", "CalculiX failed; the report view has what it said. {}").format(reason), "failure")
+
+
+@contextmanager
+def _alive(path: Path, live: Callable[[], None]):
+    """FreeCAD's reader of results, with a window that lives: the file is read in a thread, before anything changes; the functions that
+    the reader calls for each node let the window live from time to time."""
+    from feminout import importCcxFrdResults
+    from femresult import resulttools
+
+    with ThreadPoolExecutor(1) as thread:
+        reading = thread.submit(importCcxFrdResults.read_frd_result, str(path))
+        while not reading.done():
+            QtCore.QThread.msleep(_INTERVAL)
+            live()
+    calls = 0
+
+    def living(function: Callable):
+        def calculate(stress):
+            nonlocal calls
+            calls += 1
+            if calls % _NODES == 0:
+                QtCore.QCoreApplication.processEvents()
+            return function(stress)
+        return calculate
+
+    own = {(importCcxFrdResults, "read_frd_result"): lambda _path: reading.result(),
+           **{(resulttools, name): living(getattr(resulttools, name)) for name in ("calculate_von_mises", "calculate_principal_stress_std")}}
+    theirs = {place: getattr(*place) for place in own}
+    try:
+        for place, function in own.items():
+            setattr(*place, function)
+        yield
+    finally:
+        for place, function in theirs.items():
+            setattr(*place, function)
+
+
+def show(mesh, result) -> None:
+    """Shows the stresses alone, in FreeCAD's panel for results."""
+    for obj in mesh.Document.Objects:
+        if any(map(obj.isDerivedFrom, ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject"))):
+            obj.ViewObject.hide()
+    FreeCAD.FEM_dialog = {"results_type": "Sabs", "show_disp": False, "disp_factor": 0.0, "disp_factor_max": 100.0}  # von Mises
+    FreeCADGui.getDocument(mesh.Document.Name).setEdit(result.Name)
