@@ -120,11 +120,12 @@ class Boxes:
     """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone.
 
     answer: fills in a box that is no message, and returns True where it closed the box too.
+    question: answers a box with Yes and No.
     patience: seconds that a box is shown before it is answered."""
 
-    def __init__(self, answer=None, patience=0):
+    def __init__(self, answer=None, patience=0, question=None):
         self.texts = []
-        self._answer = answer
+        self._answer, self._question = answer, question
         self._patience = patience
         self._answering = False  # true while `answer` lets the window live
         self._shown, self._since = None, 0.0  # the box looked at last, and since when it is there
@@ -149,6 +150,13 @@ class Boxes:
             return
         if isinstance(box, QtGui.QMessageBox):
             self.texts.append(box.text())
+            if self._question is not None and box.standardButtons() & QtGui.QMessageBox.Yes:
+                self._answering = True
+                try:
+                    self._question(box)
+                finally:
+                    self._answering = False
+                return
             box.button(box.standardButtons() and QtGui.QMessageBox.Ok).click()
         elif self._answer is not None:
             self._answering = True

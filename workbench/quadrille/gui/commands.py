@@ -22,6 +22,7 @@ from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
                progress_bar, solve, tell, tell_briefly, transaction, translate, views)
+from .fem_workbench import FEM
 from .length_field import LengthField
 from .mesh_clicks import picked
 
@@ -125,6 +126,13 @@ class _Command:
         """What follows outside the transaction."""
 
 
+def _only_middle() -> list:
+    """The middle surface of the document, in a list; an empty list if there are none or several, or if it has a mesh."""
+    objects = FreeCAD.ActiveDocument.Objects
+    found = [obj for obj in objects if middle.is_middle(obj)]
+    return found if len(found) == 1 and not any(is_quad_mesh(obj) for obj in objects) else []
+
+
 class MeshCommand(_Command):
     """Quad mesh from shape."""
 
@@ -134,11 +142,14 @@ class MeshCommand(_Command):
     pixmap = "quadrille_mesh"
     accelerator = "Q, M"
     step = "Create quad mesh"
-    selects = True
+
+    def IsActive(self) -> bool:
+        """Also without a selection, where there is one middle surface to mesh."""
+        return super().IsActive() and bool(FreeCADGui.Selection.getSelection() or _only_middle())
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
-        selected = picks.parts_of(picked(document))
+        selected = picks.parts_of(picked(document)) or _only_middle()
         if not selected:
             raise Error(translate("Quadrille", "select one part to mesh, or several"), "usage")
         self._edit, self._made = None, False
@@ -241,10 +252,10 @@ class MiddleCommand(_Command):
         selected = picks.parts_of(picked(document))
         if not selected:
             raise Error(translate("Quadrille", "select one thin part, or several that touch"), "usage")
-        analysis = active_analysis(document)
         options = {"join": True} if len(selected) > 1 else {}
         part = _one_part(selected)
         middle_search.find(part, options, self.ask)
+        analysis = active_analysis(document) or self._new_analysis(document)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
             if loads and self.ask(translate("Quadrille", "{} are on {}. Move them to its middle surface?").format(
@@ -255,6 +266,16 @@ class MiddleCommand(_Command):
         made = [obj for obj in document.Objects if middle.is_middle(obj)][-1]
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
+
+    def _new_analysis(self, document):
+        """In the FEM workbench, offers an analysis where there is none. None if the user does not want one."""
+        if FreeCADGui.activeWorkbench().name() != FEM or any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in document.Objects) \
+                or not self.ask(translate("Quadrille", "There is no analysis. Make one, with CalculiX as its solver, stresses at the "
+                                          "surfaces, and steel as its material (to be changed in the tree)?")):
+            return None
+        do("import quadrille.freecad")
+        do(f"quadrille.freecad.make_analysis(App.getDocument({document.Name!r}))")
+        return active_analysis(document)
 
     #: Asks a yes-or-no question in a message box.
     ask = staticmethod(middle_search.ask)

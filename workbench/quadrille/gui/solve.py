@@ -3,6 +3,7 @@
 process of its own. FreeCAD's own command blocks the window until CalculiX has ended, and its panel while results are read."""
 
 import os
+import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -16,8 +17,8 @@ from ..core.errors import Error
 from ..document.groups import analysis_of
 from . import progress_bar, translate
 
-#: Milliseconds between two looks at what runs; nodes after which the window lives while stresses are computed for each.
-_INTERVAL, _NODES = 30, 500
+#: Milliseconds between two looks at what runs; seconds after which the window lives again while results are read.
+_INTERVAL, _SECONDS = 30, 0.1
 _CCX = "User parameter:BaseApp/Preferences/Mod/Fem/Ccx"
 
 
@@ -90,8 +91,9 @@ def _run(tools, live: Callable[[], None]) -> None:
 @contextmanager
 def _alive(path: Path, live: Callable[[], None]):
     """FreeCAD's reader of results, with a window that lives: the file is read in a thread, before anything changes; the functions that
-    the reader calls for each node let the window live from time to time."""
-    from feminout import importCcxFrdResults
+    the reader then calls, some for each node, let the window live from time to time."""
+    import ObjectsFem
+    from feminout import importCcxFrdResults, importToolsFem
     from femresult import resulttools
 
     with ThreadPoolExecutor(1) as thread:
@@ -99,25 +101,29 @@ def _alive(path: Path, live: Callable[[], None]):
         while not reading.done():
             QtCore.QThread.msleep(_INTERVAL)
             live()
-    calls = 0
+    last = time.monotonic()
 
-    def living(function: Callable):
-        def calculate(stress):
-            nonlocal calls
-            calls += 1
-            if calls % _NODES == 0:
+    def living(function: Callable) -> Callable:
+        def call(*arguments):
+            nonlocal last
+            if time.monotonic() - last > _SECONDS:
                 QtCore.QCoreApplication.processEvents()
-            return function(stress)
-        return calculate
+                last = time.monotonic()
+            return function(*arguments)
+        return call
 
-    own = {(importCcxFrdResults, "read_frd_result"): lambda _path: reading.result(),
-           **{(resulttools, name): living(getattr(resulttools, name)) for name in ("calculate_von_mises", "calculate_principal_stress_std")}}
-    theirs = {place: getattr(*place) for place in own}
+    theirs = {(module, name): getattr(module, name) for module, names in (
+        (importToolsFem, ("make_femmesh", "fill_femresult_mechanical")), (ObjectsFem, ("makeMeshResult", "makeResultMechanical")),
+        (resulttools, ("compact_result", "add_disp_apps", "calculate_von_mises", "calculate_principal_stress_std",
+                       "fill_femresult_stats"))) for name in names}
+    read = importCcxFrdResults.read_frd_result
     try:
-        for place, function in own.items():
-            setattr(*place, function)
+        importCcxFrdResults.read_frd_result = lambda _path: reading.result()
+        for place, function in theirs.items():
+            setattr(*place, living(function))
         yield
     finally:
+        importCcxFrdResults.read_frd_result = read
         for place, function in theirs.items():
             setattr(*place, function)
 
