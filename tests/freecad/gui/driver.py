@@ -52,6 +52,29 @@ def wait_for(condition, seconds=PATIENCE, what="the condition"):
         process(0.02)
 
 
+class Heartbeat:
+    """Measures, inside a `with`, the longest time in seconds during which the window did not live."""
+
+    def __init__(self):
+        self.longest, self._last = 0.0, 0.0
+        self._timer = QtCore.QTimer()
+        self._timer.timeout.connect(self._beat)
+
+    def __enter__(self):
+        process()
+        self._last = time.monotonic()
+        self._timer.start(5)
+        return self
+
+    def __exit__(self, *_):
+        process(0.1)
+        self._timer.stop()
+
+    def _beat(self):
+        now = time.monotonic()
+        self.longest, self._last = max(self.longest, now - self._last), now
+
+
 def trigger(command):
     """Triggers the action of a command, as its button and its menu entry do."""
     action = FreeCADGui.Command.get(command).getAction()[0]
