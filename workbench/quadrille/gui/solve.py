@@ -27,8 +27,8 @@ def tools_of(mesh):
     from femtools import ccxtools
 
     analysis = analysis_of(mesh)
-    solvers = [obj for obj in analysis.Group if getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"] \
-        if analysis is not None else []
+    members = analysis.Group if analysis is not None else ()
+    solvers = [obj for obj in members if getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"]
     if len(solvers) != 1:
         raise Error(translate("Quadrille", "{}: needs an analysis with one solver object CalculiX (ccx tools)").format(mesh.Label),
                     "usage", mesh.Name)
