@@ -28,7 +28,7 @@ from driver import Boxes, Heartbeat, cancel_bars, click_at, close_panel, find, p
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
-from quadrille.solvers import checklist
+from quadrille.solvers import checklist, results
 
 
 def fem_entries():
@@ -220,18 +220,12 @@ class GuiTest(GuiCase):
 
     def loaded_tube(self):
         """A part with an analysis that needs only a mesh: part, analysis, solver."""
-        import FemGui
-
         plate = self.document.addObject("Part::Feature", "Tube")
         plate.Shape = Part.read(str(MODELS / "tube_with_hole.brep"))
         self.show()
-        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
-        FemGui.setActiveAnalysis(analysis)
-        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
-        solver = analysis.addObject(make_solver(self.document, "CalculiX"))[0]
+        analysis = quadrille.freecad.make_analysis(self.document)
+        solver, = results.solvers_of(analysis)
         solver.BeamShellResultOutput3D = False  # as it is at first in 0.20
-        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
-        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
         analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
         ends = sorted((edge.CenterOfMass.z, f"Edge{i}") for i, edge in enumerate(plate.Shape.Edges, 1)
                       if edge.isClosed() and edge.BoundBox.ZLength < 1e-6)

@@ -21,7 +21,7 @@ from ..features import adaption, middle, surfaces
 from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
-               progress_bar, solve, tell, tell_briefly, transaction, translate, views)
+               progress_bar, tell, tell_briefly, transaction, translate, views)
 from .fem_workbench import FEM
 from .length_field import LengthField
 from .mesh_clicks import picked
@@ -227,11 +227,12 @@ class SolveCommand(_Command):
         return getattr(getattr(edited, "Proxy", None), "panel", None)
 
     def run(self) -> None:
-        self._mesh = _meshed_in_question()
-        self._result = solve.solve(self._mesh)
+        self._mesh = path_of(_meshed_in_question())
+        do("import quadrille.gui.solve")
+        do(f"quadrille.gui.solve.solve({self._mesh})")
 
     def afterwards(self) -> None:
-        solve.show(self._mesh, self._result)
+        do(f"quadrille.gui.solve.show({self._mesh})")
 
 
 class MiddleCommand(_Command):

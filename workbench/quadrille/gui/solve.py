@@ -7,7 +7,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable, Dict, Tuple
 
 import FreeCAD
 import FreeCADGui
@@ -19,11 +19,10 @@ from . import progress_bar, translate
 
 #: Milliseconds between two looks at what runs; seconds after which the window lives again while results are read.
 _INTERVAL, _SECONDS = 30, 0.1
-_CCX = "User parameter:BaseApp/Preferences/Mod/Fem/Ccx"
 
 
-def tools_of(mesh):
-    """FreeCAD's tools for CalculiX, ready to write the input. Raises Error if something is missing."""
+def solve(mesh) -> None:
+    """Solves, behind a bar. The analysis keeps its older results until there are new ones. Raises Error."""
     from femtools import ccxtools
 
     analysis = analysis_of(mesh)
@@ -39,12 +38,6 @@ def tools_of(mesh):
     missing = tools.check_prerequisites()
     if missing or not tools.ccx_binary_present:
         raise Error(missing.strip() or translate("Quadrille", "CalculiX is not installed"), "usage", mesh.Name)
-    return tools
-
-
-def solve(mesh):
-    """Solves, behind a bar. Returns the result object; the analysis keeps its older results until there are new ones. Raises Error."""
-    tools = tools_of(mesh)
     with progress_bar(translate("Quadrille", "Solving {}").format(mesh.Label), busy=True) as lives:
         def live() -> None:
             if not lives("", 0):
@@ -55,17 +48,19 @@ def solve(mesh):
         with _alive(Path(tools.inp_file_name).with_suffix(".frd"), live):
             tools.reset_mesh_purge_results_checked()
             tools.load_results()
-    results = [obj for obj in tools.analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]
-    if not results:
+    if not _results(mesh):
         raise Error(translate("Quadrille", "{}: CalculiX gave no results: see the report view").format(mesh.Label), "failure", mesh.Name)
-    return results[-1]
+
+
+def _results(mesh) -> list:
+    return [obj for obj in analysis_of(mesh).Group if obj.isDerivedFrom("Fem::FemResultObject")]
 
 
 def _run(tools, live: Callable[[], None]) -> None:
     """Runs CalculiX; kills it if live() raises."""
     process = QtCore.QProcess()
     environment = QtCore.QProcessEnvironment.systemEnvironment()
-    threads = FreeCAD.ParamGet(_CCX).GetInt("AnalysisNumCPUs", 1)  # FreeCAD takes 1 for all
+    threads = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx").GetInt("AnalysisNumCPUs", 1)  # FreeCAD takes 1 for all
     environment.insert("OMP_NUM_THREADS", str(threads if threads > 1 else os.cpu_count() or 1))
     process.setProcessEnvironment(environment)
     process.setProcessChannelMode(QtCore.QProcess.MergedChannels)
@@ -112,26 +107,25 @@ def _alive(path: Path, live: Callable[[], None]):
             return function(*arguments)
         return call
 
-    theirs = {(module, name): getattr(module, name) for module, names in (
+    own: Dict[Tuple[Any, str], Callable] = {(module, name): living(getattr(module, name)) for module, names in (
         (importToolsFem, ("make_femmesh", "fill_femresult_mechanical")), (ObjectsFem, ("makeMeshResult", "makeResultMechanical")),
         (resulttools, ("compact_result", "add_disp_apps", "calculate_von_mises", "calculate_principal_stress_std",
-                       "fill_femresult_stats"))) for name in names}
-    read = importCcxFrdResults.read_frd_result
+                       "fill_femresult_stats"))) for name in names if hasattr(module, name)}
+    own[importCcxFrdResults, "read_frd_result"] = lambda _path: reading.result()
+    theirs = {place: getattr(*place) for place in own}
     try:
-        importCcxFrdResults.read_frd_result = lambda _path: reading.result()
-        for place, function in theirs.items():
-            setattr(*place, living(function))
+        for place, function in own.items():
+            setattr(*place, function)
         yield
     finally:
-        importCcxFrdResults.read_frd_result = read
         for place, function in theirs.items():
             setattr(*place, function)
 
 
-def show(mesh, result) -> None:
-    """Shows the stresses alone, in FreeCAD's panel for results."""
+def show(mesh) -> None:
+    """Shows the latest stresses alone, in FreeCAD's panel for results."""
     for obj in mesh.Document.Objects:
         if any(map(obj.isDerivedFrom, ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject"))):
             obj.ViewObject.hide()
     FreeCAD.FEM_dialog = {"results_type": "Sabs", "show_disp": False, "disp_factor": 0.0, "disp_factor_max": 100.0}  # von Mises
-    FreeCADGui.getDocument(mesh.Document.Name).setEdit(result.Name)
+    FreeCADGui.getDocument(mesh.Document.Name).setEdit(_results(mesh)[-1].Name)
