@@ -217,8 +217,12 @@ class SolveCommand(_Command):
     def Activated(self, _index: int = 0) -> None:
         """FreeCAD calls this when the command is clicked. What an open panel did is kept."""
         panel = self._panel()
-        if panel is None or panel.accept():
-            super().Activated()
+        if panel is not None:
+            if not panel.accept():
+                return
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(panel.mesh)
+        super().Activated()
 
     @staticmethod
     def _panel():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solves a mesh's analysis with CalculiX and shows the stresses. FreeCAD writes the input and reads the results; CalculiX runs in a
-process of its own. FreeCAD's own command blocks the window until CalculiX has ended, and its panel while results are read."""
+process of its own. FreeCAD's own command blocks the window until CalculiX has ended, and its panel until the results are read."""
 
 import os
 import time
