@@ -24,10 +24,11 @@ from .document.state import UP_TO_DATE, complaint  # noqa: E402
 from .features import surfaces  # noqa: E402
 from .features.mesh_object import (MeshFeature, check_part, export, finish, flip, fragments, make_mesh, mesh_object,  # noqa: E402
                                    remesh, start, suggested_size)
+from .solvers.results import make_analysis  # noqa: E402
 
 __all__ = [
     "Error", "MeshFeature", "PREFERENCES", "ShapeJob", "UP_TO_DATE", "check_part", "complaint", "export", "find_mesher",
-    "finish", "flip", "fragments", "make_mesh", "mesh_object", "mesh_surface", "read_mesh", "refine", "remesh", "start",
+    "finish", "flip", "fragments", "make_analysis", "make_mesh", "mesh_object", "mesh_surface", "read_mesh", "refine", "remesh", "start",
     "suggested_size",
 ]
 

@@ -1139,6 +1139,30 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <source>the search for the middle surface was cancelled</source>
         <translation>die Suche nach der Mittelfläche wurde abgebrochen</translation>
     </message>
+    <message>
+        <source>There is no analysis. Make one, with CalculiX as its solver, stresses at the surfaces, and steel as its material (to be changed in the tree)?</source>
+        <translation>Es gibt keine Analyse. Eine anlegen, mit CalculiX als Löser, Spannungen an den Oberflächen und Stahl als Material (im Baum zu ändern)?</translation>
+    </message>
+    <message>
+        <source>{}: needs an analysis with one solver object CalculiX (ccx tools)</source>
+        <translation>{}: braucht eine Analyse mit einem Löser-Objekt CalculiX (ccx tools)</translation>
+    </message>
+    <message>
+        <source>CalculiX is not installed</source>
+        <translation>CalculiX ist nicht installiert</translation>
+    </message>
+    <message>
+        <source>Solving {}</source>
+        <translation>{} wird gelöst</translation>
+    </message>
+    <message>
+        <source>{}: CalculiX gave no results: see the report view</source>
+        <translation>{}: CalculiX gab keine Ergebnisse: siehe Ausgabefenster</translation>
+    </message>
+    <message>
+        <source>CalculiX failed; the report view has what it said. {}</source>
+        <translation>CalculiX ist gescheitert; was es meldet, steht im Ausgabefenster. {}</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -1560,6 +1584,17 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
         <translation>Den gewählten Flächen, Kanten oder Ecken eine eigene Größe geben (FEM-Netzbereich)</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Solve</name>
+    <message>
+        <source>Solve</source>
+        <translation>Lösen</translation>
+    </message>
+    <message>
+        <source>Solve the analysis of a quad mesh with CalculiX, and show the stresses</source>
+        <translation>Die Analyse eines Vierecknetzes mit CalculiX lösen und die Spannungen zeigen</translation>
     </message>
 </context>
 <context>

@@ -1139,6 +1139,30 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <source>the search for the middle surface was cancelled</source>
         <translation>la recherche de la surface moyenne a été annulée</translation>
     </message>
+    <message>
+        <source>There is no analysis. Make one, with CalculiX as its solver, stresses at the surfaces, and steel as its material (to be changed in the tree)?</source>
+        <translation>Il n’y a pas d’analyse. En créer une, avec CalculiX comme solveur, les contraintes aux surfaces et l’acier comme matériau (à modifier dans l’arborescence) ?</translation>
+    </message>
+    <message>
+        <source>{}: needs an analysis with one solver object CalculiX (ccx tools)</source>
+        <translation>{} : nécessite une analyse avec un seul objet solveur CalculiX (ccx tools)</translation>
+    </message>
+    <message>
+        <source>CalculiX is not installed</source>
+        <translation>CalculiX n’est pas installé</translation>
+    </message>
+    <message>
+        <source>Solving {}</source>
+        <translation>Résolution de {}</translation>
+    </message>
+    <message>
+        <source>{}: CalculiX gave no results: see the report view</source>
+        <translation>{} : CalculiX n’a donné aucun résultat : voir la vue rapport</translation>
+    </message>
+    <message>
+        <source>CalculiX failed; the report view has what it said. {}</source>
+        <translation>CalculiX a échoué ; la vue rapport contient ses messages. {}</translation>
+    </message>
 </context>
 <context>
     <name>QuadrilleSettings</name>
@@ -1560,6 +1584,17 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Give the selected faces, edges or vertices a size of their own (a FEM mesh region)</source>
         <translation>Donner une taille propre aux faces, arêtes ou sommets sélectionnés (région de maillage FEM)</translation>
+    </message>
+</context>
+<context>
+    <name>Quadrille_Solve</name>
+    <message>
+        <source>Solve</source>
+        <translation>Résoudre</translation>
+    </message>
+    <message>
+        <source>Solve the analysis of a quad mesh with CalculiX, and show the stresses</source>
+        <translation>Résoudre l’analyse d’un maillage de quadrangles avec CalculiX et afficher les contraintes</translation>
     </message>
 </context>
 <context>

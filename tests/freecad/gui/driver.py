@@ -52,6 +52,29 @@ def wait_for(condition, seconds=PATIENCE, what="the condition"):
         process(0.02)
 
 
+class Heartbeat:
+    """Measures, inside a `with`, the longest time in seconds during which the window did not live."""
+
+    def __init__(self):
+        self.longest, self._last = 0.0, 0.0
+        self._timer = QtCore.QTimer()
+        self._timer.timeout.connect(self._beat)
+
+    def __enter__(self):
+        process()
+        self._last = time.monotonic()
+        self._timer.start(5)
+        return self
+
+    def __exit__(self, *_):
+        process(0.1)
+        self._timer.stop()
+
+    def _beat(self):
+        now = time.monotonic()
+        self.longest, self._last = max(self.longest, now - self._last), now
+
+
 def trigger(command):
     """Triggers the action of a command, as its button and its menu entry do."""
     action = FreeCADGui.Command.get(command).getAction()[0]
@@ -120,11 +143,12 @@ class Boxes:
     """Answers the modal boxes that come up inside a `with` and keeps their texts; leaves progress bars alone.
 
     answer: fills in a box that is no message, and returns True where it closed the box too.
+    question: answers a box with Yes and No.
     patience: seconds that a box is shown before it is answered."""
 
-    def __init__(self, answer=None, patience=0):
+    def __init__(self, answer=None, patience=0, question=None):
         self.texts = []
-        self._answer = answer
+        self._answer, self._question = answer, question
         self._patience = patience
         self._answering = False  # true while `answer` lets the window live
         self._shown, self._since = None, 0.0  # the box looked at last, and since when it is there
@@ -149,6 +173,13 @@ class Boxes:
             return
         if isinstance(box, QtGui.QMessageBox):
             self.texts.append(box.text())
+            if self._question is not None and box.standardButtons() & QtGui.QMessageBox.Yes:
+                self._answering = True
+                try:
+                    self._question(box)
+                finally:
+                    self._answering = False
+                return
             box.button(box.standardButtons() and QtGui.QMessageBox.Ok).click()
         elif self._answer is not None:
             self._answering = True

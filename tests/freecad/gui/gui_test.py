@@ -24,11 +24,11 @@ import quadrille.core.quality
 import quadrille.freecad
 from quadrille.gui import background
 from case import MODELS, GuiCase, picture, run, type_size
-from driver import Boxes, click_at, close_panel, find, process, trigger, wait_for, window
+from driver import Boxes, Heartbeat, cancel_bars, click_at, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
 from quadrille.gui import commands, overlays
-from quadrille.solvers import checklist
+from quadrille.solvers import checklist, results
 
 
 def fem_entries():
@@ -218,23 +218,14 @@ class GuiTest(GuiCase):
         self.assertEqual(mesh.Status, "up to date")
         self.assertFalse(overlays.is_shown(mesh, overlays.STALE))
 
-    def test_to_the_stresses(self):
-        """What docs/freecad.md tells, step by step."""
-        if not shutil.which("ccx"):
-            self.skipTest("CalculiX is not installed")
-        import FemGui
-        from femtools import ccxtools
-
+    def loaded_tube(self):
+        """A part with an analysis that needs only a mesh: part, analysis, solver."""
         plate = self.document.addObject("Part::Feature", "Tube")
         plate.Shape = Part.read(str(MODELS / "tube_with_hole.brep"))
         self.show()
-        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
-        FemGui.setActiveAnalysis(analysis)
-        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
-        solver = analysis.addObject(make_solver(self.document, "CalculiX"))[0]
+        analysis = quadrille.freecad.make_analysis(self.document)
+        solver, = results.solvers_of(analysis)
         solver.BeamShellResultOutput3D = False  # as it is at first in 0.20
-        material = analysis.addObject(ObjectsFem.makeMaterialSolid(self.document, "Steel"))[0]
-        material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
         analysis.addObject(ObjectsFem.makeElementGeometry2D(self.document, 1.0, "Thickness"))
         ends = sorted((edge.CenterOfMass.z, f"Edge{i}") for i, edge in enumerate(plate.Shape.Edges, 1)
                       if edge.isClosed() and edge.BoundBox.ZLength < 1e-6)
@@ -244,6 +235,15 @@ class GuiTest(GuiCase):
         force.References = [(plate, ends[-1][1])]
         force.Force = "100 N" if FreeCAD.Version()[0] != "0" else 100.0
         self.document.recompute()
+        return plate, analysis, solver
+
+    def test_to_the_stresses(self):
+        """What docs/freecad.md tells, step by step."""
+        if not shutil.which("ccx"):
+            self.skipTest("CalculiX is not installed")
+        from femtools import ccxtools
+
+        plate, analysis, solver = self.loaded_tube()
         mesh = self.open_panel(plate)
         find("QuadrilleSurfaces").setChecked(True)
         self.press_mesh()
@@ -265,6 +265,35 @@ class GuiTest(GuiCase):
         result.Mesh.ViewObject.show()
         result.Mesh.ViewObject.setNodeColorByScalars(list(result.NodeNumbers), list(result.vonMises))
         self.show()
+
+    def solve(self, script):
+        """Presses Solve with another program as CalculiX, and Cancel a second later; returns the messages and the number of results."""
+        def use(tools):
+            tools.ccx_binary, tools.ccx_binary_present = str(program), True
+
+        plate, analysis, _ = self.loaded_tube()
+        quadrille.freecad.mesh_object(plate, size=4, analysis=analysis)
+        with tempfile.TemporaryDirectory() as folder:
+            program, pid = Path(folder) / "ccx", Path(folder) / "pid"
+            program.write_text(f"#!/bin/sh\necho $$ >{pid}\n{script}\n")
+            program.chmod(0o755)
+            from femtools.ccxtools import FemToolsCcx
+
+            with mock.patch.object(FemToolsCcx, "setup_ccx", use), Boxes() as boxes, Heartbeat() as heart:
+                QtCore.QTimer.singleShot(1000, cancel_bars)
+                trigger("Quadrille_Solve")
+            self.assertLess(heart.longest, 1)
+            with self.assertRaises(ProcessLookupError):
+                os.kill(int(pid.read_text()), 0)
+        return boxes.texts, sum(obj.isDerivedFrom("Fem::FemResultObject") for obj in analysis.Group)
+
+    def test_solving_stops(self):
+        self.assertEqual(self.solve("exec sleep 3000"), ([], 0))
+
+    def test_a_solver_that_fails_is_told(self):
+        (text,), results = self.solve("echo '*ERROR in gauss: singular'; exit 201")
+        self.assertIn("*ERROR in gauss: singular", text)
+        self.assertEqual(results, 0)
 
     # In the FEM workbench
 

@@ -23,6 +23,7 @@ _DISPLAY = _X.XOpenDisplay(os.environ["DISPLAY"].encode())
 LEFT, WHEEL_UP, WHEEL_DOWN = 1, 4, 5
 RETURN, TAB, SHIFT, CONTROL = 0xFF0D, 0xFF09, 0xFFE1, 0xFFE3
 
+clicks = 0  #: how often the left button was pressed
 _KEPT = []  # PySide2 declares a widget deleted when Python lets go of one above it
 
 
@@ -50,6 +51,8 @@ def move(point):
 
 def press(button=LEFT, times=1):
     """Clicks where the pointer is. All is sent at once, since a busy machine would make two clicks of a double-click."""
+    global clicks
+    clicks += times if button == LEFT else 0
     for _ in range(times):
         for down in (1, 0):
             _TEST.XTestFakeButtonEvent(_DISPLAY, button, down, 10)
@@ -137,6 +140,17 @@ def choose_entry(path):
             wait_for(menu.isVisible, 20, word)
     process(0.5)
     return True
+
+
+def press_tool(text):
+    """Presses the button of a toolbar by the text of its command."""
+    def found():
+        return [button for bar in seen(QtGui.QToolBar) for button in seen(QtGui.QToolButton, bar)
+                if button.defaultAction() is not None and button.defaultAction().text().replace("&", "").rstrip(".…") == text]
+    assert len(found()) == 1, f"{text}: {len(found())} buttons"
+    wait_for(lambda: found()[0].isEnabled(), 20, text)
+    click(found()[0])
+    process(0.5)
 
 
 def _close_menus():

@@ -21,8 +21,10 @@ from case import GuiCase, picture, run
 from driver import Boxes, cancel_bars, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.command import VERSION
 from quadrille.core.errors import Error
+from quadrille.document.state import is_quad_mesh
 from quadrille.features import middle
 from quadrille.gui.commands import MiddleCommand
+from quadrille.solvers import results
 
 
 class MiddleTest(GuiCase):
@@ -77,6 +79,29 @@ class MiddleTest(GuiCase):
         self.assertEqual(fixed.References[0][0], part)
         self.document.redo()
         self.assertEqual(len(self.surfaces()), 1)
+
+    def test_an_analysis_is_offered_in_fem(self):
+        part = self.sheet()
+        FreeCADGui.activateWorkbench("FemWorkbench")
+
+        def analyses():
+            return [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemAnalysis")]
+
+        questions = self.make(part, answer=False)
+        self.assertEqual((len(questions), analyses()), (1, []))
+        self.document.undo()
+        questions = self.make(part)
+        self.assertIn("steel", questions[0])
+        (analysis,), (surface,) = analyses(), self.surfaces()
+        self.assertEqual(FemGui.getActiveAnalysis(), analysis)
+        self.assertEqual(len(results.solvers_of(analysis)), 1)
+        self.assertEqual(len([obj for obj in analysis.Group if obj.isDerivedFrom("App::MaterialObject")]), 1)
+        self.assertEqual(len(middle.thickness_objects(surface)), 2)
+        FreeCADGui.Selection.clearSelection()
+        trigger("Quadrille_Mesh")  # takes the only middle surface
+        close_panel()
+        mesh, = (obj for obj in analysis.Group if is_quad_mesh(obj))
+        self.assertEqual(mesh.Shape, surface)
 
     def test_loads_stay_where_that_is_wanted(self):
         part = self.sheet()

@@ -22,7 +22,7 @@ from PySide import QtCore, QtGui
 
 import quadrille.freecad
 from case import MODELS, GuiCase, picture, run, type_into
-from driver import Boxes, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
+from driver import Boxes, Heartbeat, click, click_at, close_panel, find, process, trigger, turn_wheel, wait_for, window
 from quadrille.core import command, quality
 from quadrille.core.setting_table import SETTINGS, MeshSettings
 from quadrille.document import findings, links, state
@@ -917,6 +917,24 @@ class PanelTest(GuiCase):
         close_panel()
         self.assertFalse(overlays.is_shown(mesh, overlays.FREE))
         self.assertFalse(overlays.is_shown(mesh, overlays.QUALITY))
+
+    def test_the_window_lives_while_16_000_quads_are_colored(self):
+        part = self.document.addObject("Part::Plane", "Plane")
+        part.Length = part.Width = 128
+        self.document.recompute()
+        self.show()
+        mesh = quadrille.freecad.mesh_object(part, size=1)
+        self.assertGreater(mesh.QuadCount, 16000)
+        self.edit(mesh)
+        with Heartbeat() as heart:
+            find("QuadrilleColor").setChecked(True)  # before the elements are measured for the lists
+            process(1)
+            measure = find("QuadrilleMeasure")
+            measure.setCurrentIndex(measure.findData("warp"))
+            process(1)
+        self.assertTrue(overlays.is_shown(mesh, overlays.QUALITY))
+        self.assertLess(heart.longest, 1)
+        close_panel()
 
     def test_an_element_is_told_and_refined(self):
         part = self.document.addObject("Part::Feature", "Wedge")

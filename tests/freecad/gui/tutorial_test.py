@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtCore, QtGui
+from PySide import QtGui
 
 import hand
 from case import MODELS, ROOT, GuiCase, picture, run
@@ -24,10 +24,12 @@ from quadrille.document.state import is_quad_mesh
 from quadrille.middle import is_middle, thickness_objects
 
 
+TEXT = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
+
+
 def read_steps():
     """The numbered steps of the section, as plain lines."""
-    text = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
-    text = text.split("## In FreeCAD, to stresses")[1].split("\n## ")[0]
+    text = TEXT.split("## In FreeCAD, to stresses")[1].split("\n## ")[0]
     text = re.sub(r"!\[.*?\]\(.*?\)", "", text.split("A script clicks")[0])
     steps, table = text.split("| FreeCAD ")
     found = re.split(r"^(\d+)\. ", steps, flags=re.MULTILINE)[1:]
@@ -48,6 +50,8 @@ def read_names(table):
 STEPS, NAMES = read_steps()
 #: The test after which FreeCAD ends.
 LAST = "test_from_an_empty_freecad_to_stresses"
+#: Clicks that the way from an open part to its stresses may take.
+MOST_CLICKS = 25
 
 
 def task_dock():
@@ -65,10 +69,15 @@ class TutorialTest(GuiCase):
         """What stands in a step as `code`."""
         return re.findall(r"`([^`]+)`", STEPS[step])
 
-    def choose(self, step, number=0):
-        """Takes a menu entry that a step names, by the name that this FreeCAD has for it."""
-        named = re.findall(r"\*([^*]+ > [^*]+)\*", STEPS[step])[number]
-        self.assertTrue(hand.choose_entry(NAMES.get(named, named)), f"step {step}: no menu entry {NAMES.get(named, named)}")
+    def choose(self, step):
+        """Takes the menu entry that a step names."""
+        named = re.findall(r"\*([^*]+ > [^*]+)\*", STEPS[step])[0]
+        self.assertTrue(hand.choose_entry(named), f"step {step}: no menu entry {named}")
+
+    def press_tool(self, step):
+        """Presses the toolbar's button for the command that a step names first, by the name that this FreeCAD has for it."""
+        named = re.findall(r"(?<!\*)\*([^*]+)\*(?!\*)", STEPS[step])[0]
+        hand.press_tool(NAMES.get(named, named).split(" > ")[-1])
 
     def press(self, step, text):
         """Presses a button that a step names."""
@@ -131,34 +140,21 @@ class TutorialTest(GuiCase):
         if self._testMethodName != LAST:
             super().tearDown()
 
-    def test_a_pipeline_as_results(self):
-        if not self.newer():
-            self.skipTest("results as a pipeline are of FreeCAD 1.1")
-        settings = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem")
-        settings.GetGroup("General").SetBool("UseTempDirectory", True)  # what OK in the preferences writes; else no folder
-        settings.GetGroup("Ccx").SetBool("ResultAsPipeline", True)
-        try:
-            self.follow()
-        finally:
-            settings.GetGroup("Ccx").SetBool("ResultAsPipeline", False)
-
     def test_from_an_empty_freecad_to_stresses(self):
-        self.follow()
-
-    @staticmethod
-    def newer():
-        """True from FreeCAD 1.1 on."""
-        return tuple(map(int, FreeCAD.Version()[:2])) >= (1, 1)
-
-    def follow(self):
-        """All steps."""
         if not shutil.which("ccx"):
             self.skipTest("CalculiX is not installed")
         part = self.open_the_part()
-        solver, surface = self.make_analysis(part)
-        self.mesh(surface)
-        largest = self.solve(solver)
-        named = float(re.search(r"about (\d+) MPa", STEPS[11]).group(1))
+        before = hand.clicks
+        surface = self.make_analysis(part)
+        mesh = self.mesh(surface)
+        needed = hand.clicks - before
+        self.look_and_refine(surface, mesh)
+        before = hand.clicks
+        largest = self.solve(mesh)
+        needed += hand.clicks - before
+        self.assertLessEqual(needed, MOST_CLICKS)
+        self.assertEqual(needed, int(re.search(r"these are (\d+) clicks", TEXT).group(1)))
+        named = float(re.search(r"about (\d+) MPa", STEPS[8]).group(1))
         self.assertLess(abs(largest / named - 1), 0.03, (largest, named))
 
     def open_the_part(self):
@@ -192,95 +188,80 @@ class TutorialTest(GuiCase):
         return FreeCAD.ActiveDocument
 
     def make_analysis(self, part):
-        """Steps 2 to 6; returns the solver and the middle surface."""
-        self.choose(2)
-        solvers = [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemSolverObject")]
-        if not solvers:
-            self.choose(2, 1)
-            solvers = [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemSolverObject")]
-        self.assertEqual(len(solvers), 1)
-        picture("tutorial_2")
-        self.choose(3)
-        self.choose_card(re.findall(r"card \*([^*]+)\*", STEPS[3])[0])
-        picture("tutorial_3")
-        self.press(3, "OK")
+        """Steps 2 to 4; returns the middle surface."""
+        def agree(box):
+            self.assertIn("**Yes**", STEPS[2])
+            hand.click(box.button(QtGui.QMessageBox.Yes))
+
         self.click_part(part)
-        self.choose(4)
+        with Boxes(question=agree) as boxes:
+            self.press_tool(2)
+        self.assertEqual(len(boxes.texts), 1)
         surface, = (obj for obj in self.document.Objects if is_middle(obj))
         self.assertFalse(part.ViewObject.Visibility)
-        picture("tutorial_4")
+        picture("tutorial_2")
         sheet, = thickness_objects(surface)
-        self.assertIn(f"{sheet.Thickness.getValueAs('mm').Value:g} mm", STEPS[4])
-        self.choose(5)
-        self.press(5, "Add")
+        self.assertIn(f"{sheet.Thickness.getValueAs('mm').Value:g} mm", STEPS[2])
         holes = self.rims(surface, 4)
         self.assertEqual(len(holes), 4)
+        self.press_tool(3)
+        self.press(3, "Add")
         self.click(surface, *holes)
         self.check_references("Fem::ConstraintFixed", holes)
-        picture("tutorial_5")
-        self.press(5, "OK")
-        self.choose(6)
-        unit, bare = self.values(6)
+        picture("tutorial_3")
+        self.press(3, "OK")
+        self.press_tool(4)
+        unit, bare = self.values(4)
         shown = task_dock().findChild(QtGui.QAbstractSpinBox, "spinForce").text()
         self.fill_in(("spinForce",), unit if "N" in shown else bare)
-        self.press(6, "Add")
-        self.click(surface, *self.rims(surface, 2.75))
-        self.press(6, "Add")
-        self.check_references("Fem::ConstraintForce", self.rims(surface, 2.75))
         wall = next(f"Face{i}" for i, face in enumerate(surface.Shape.Faces, 1) if face.BoundBox.XLength < 1e-6)
         self.click(surface, wall)
-        self.press(6, "Direction")
-        picture("tutorial_6")
-        self.press(6, "OK")
-        return solvers[0], surface
+        self.press(4, "Direction")
+        self.press(4, "Add")
+        self.click(surface, *self.rims(surface, 2.75))
+        self.check_references("Fem::ConstraintForce", self.rims(surface, 2.75))
+        picture("tutorial_4")
+        self.press(4, "OK")
+        return surface
 
     def check_references(self, kind, names):
         """That a constraint has all that was clicked."""
         constraint, = (obj for obj in self.document.Objects if obj.isDerivedFrom(kind))
         self.assertEqual(sorted(name for _, found in constraint.References for name in found), sorted(names))
 
-    def choose_card(self, card):
-        """In the panel for materials: a list in 0.20, a tree behind an arrow in 1.0."""
-        for box in hand.seen(QtGui.QComboBox, task_dock()):
-            if box.findText(card) >= 0:
-                hand.choose_in(box, card)
-                return
-        hand.click(next(button for button in hand.seen(QtGui.QPushButton, task_dock()) if not button.text()))
-        process(0.5)
-        tree = hand.seen(QtGui.QTreeView, task_dock())[0]
-        hand.click_in_tree(tree, card, match=QtCore.Qt.MatchStartsWith)
-        process(0.5)
-
     def mesh(self, surface):
-        """Steps 7 to 9; returns the mesh object."""
-        self.click_part(surface)
-        self.choose(7)
-        mesh = [obj for obj in self.document.Objects if is_quad_mesh(obj)][-1]
-        hand.write(find("QuadrilleSize"), self.values(7)[0])
-        picture("tutorial_7")
-        self.tick(8, "QuadrilleSurfaces")
-        self.press_mesh_of(8)
+        """Step 5; returns the mesh object."""
+        self.press_tool(5)
+        mesh, = (obj for obj in self.document.Objects if is_quad_mesh(obj))
+        self.assertEqual(mesh.Shape, surface)
+        hand.write(find("QuadrilleSize"), self.values(5)[0])
+        self.assertIn(f"*{find('QuadrilleSurfaces').text()}* is ticked", STEPS[5])
+        self.assertTrue(find("QuadrilleSurfaces").isChecked())
+        picture("tutorial_5")
+        self.press_mesh_of(5)
+        return mesh
+
+    def look_and_refine(self, surface, mesh):
+        """Steps 6 and 7."""
         before = mesh.QuadCount
         worst = find("QuadrilleWorst")
         hand.click_item(worst, worst.model().index(0, 0))
-        for key in self.values(8):
+        for key in self.values(6):
             hand.type_text(key)
-        self.tick(8, "QuadrilleColor")
-        picture("tutorial_8")
-        self.tick(8, "QuadrilleColor", False)
+        self.tick(6, "QuadrilleColor")
+        picture("tutorial_6")
+        self.tick(6, "QuadrilleColor", False)
         bend = next(face for face in surface.Shape.Faces if face.BoundBox.XMax < 6 and face.BoundBox.ZMax < 6)
         hand.click_model(on_bend(bend))
         hand.click(find("QuadrilleRefinements"))
-        self.press(9, "Refine selection")
-        hand.write(find("QuadrilleRefinedSize0"), self.values(9)[0])
-        self.press_mesh_of(9)
+        self.press(7, "Refine selection")
+        hand.write(find("QuadrilleRefinedSize0"), self.values(7)[0])
+        self.press_mesh_of(7)
         self.assertGreater(mesh.QuadCount, before)
         region, = mesh.MeshRegionList
         (_, (name,)), = region.References
         self.assertTrue(surface.Shape.getElement(name).isSame(bend), name)
-        picture("tutorial_9")
-        self.press(9, "OK")
-        return mesh
+        picture("tutorial_7")
 
     def press_mesh_of(self, step):
         """Presses Mesh and waits for the end."""
@@ -296,52 +277,18 @@ class TutorialTest(GuiCase):
             hand.click(box)
         self.assertEqual(box.isChecked(), ticked)
 
-    def solve(self, solver):
-        """Steps 10 and 11; returns the largest stress that FreeCAD shows."""
-        hand.click_object(solver, 2)
-        newer = "Apply" in self.buttons()
-        for text in ("Apply",) if newer else ("Write .inp File", "Run CalculiX"):
-            self.press(10, text)
-
-        def results():
-            return [obj for obj in self.document.Objects
-                    if obj.isDerivedFrom("Fem::FemPostPipeline" if newer else "Fem::FemResultObject")]
-
-        said = re.findall(r"\*([^*]+)\*, \*\*OK", STEPS[10])[0]
-        wait_for(lambda: results() and (not newer or said in task_dock().findChild(QtGui.QTextEdit).toPlainText()), 120,
-                 "CalculiX")
-        process(1)
-        picture("tutorial_10")
-        self.press(10, "OK" if newer else "Close")
-        result = results()[0]
-        self.hide_others(result, self.values(11))
-        hand.click_object(result, 2)
-        self.choose_stress(re.findall(r"choose \*([^*]+)\*", STEPS[11])[0])
+    def solve(self, mesh):
+        """Step 8; returns the largest stress."""
+        self.press_tool(8)
+        result, = (obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemResultObject"))
+        chosen = [button.text() for button in hand.seen(QtGui.QRadioButton, task_dock()) if button.isChecked()]
+        self.assertIn("von mises stress", [text.lower() for text in chosen])
         kinds = ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject")
         seen = [obj for obj in self.document.Objects if obj.ViewObject.Visibility and any(map(obj.isDerivedFrom, kinds))]
-        self.assertEqual(seen, [getattr(result, "Mesh", None) or result], [obj.Name for obj in seen])
-        picture("tutorial_11")
-        return max(von_mises(result))
-
-    def hide_others(self, result, names):
-        """Hides the mesh and what a step names, with the space bar; then nothing but the result covers the part."""
-        for other in [obj for obj in self.document.Objects if is_quad_mesh(obj) or obj.Name in names]:
-            if other.ViewObject.Visibility:
-                hand.click_object(other)
-                hand.type_text(" ")
-                self.assertFalse(other.ViewObject.Visibility, other.Name)
-
-    def choose_stress(self, named):
-        """In the panel of the result: buttons in 0.20 and 1.0, a list of fields in 1.1."""
-        for box in hand.seen(QtGui.QComboBox, task_dock()):
-            if box.findText(named) >= 0:
-                hand.choose_in(box, named)
-                return
-        buttons = [button for button in hand.seen(QtGui.QRadioButton, task_dock())
-                   if button.text().lower() == named.lower()]
-        self.assertEqual(len(buttons), 1, named)
-        hand.click(buttons[0])
-        process(0.5)
+        self.assertEqual(seen, [result.Mesh], [obj.Name for obj in seen])
+        self.assertIn(mesh, self.document.Objects)
+        picture("tutorial_8")
+        return max(result.vonMises)
 
     def test_a_mesh_as_the_readme_says(self):
         FreeCAD.closeDocument(self.document.Name)
@@ -363,16 +310,6 @@ def on_bend(face):
     """The middle of a curved face, on it."""
     first_u, last_u, first_v, last_v = face.ParameterRange
     return face.valueAt((first_u + last_u) / 2, (first_v + last_v) / 2)
-
-
-def von_mises(result):
-    """The stresses of a result object, or of 1.1's pipeline."""
-    if hasattr(result, "vonMises"):
-        return result.vonMises
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    blocks = result.Data
-    return vtk_to_numpy(blocks.GetBlock(0).GetPointData().GetArray("von Mises Stress"))
 
 
 run(TutorialTest)

@@ -65,15 +65,19 @@ def links_text(links) -> str:
 
 
 @contextmanager
-def progress_bar(text: str):
-    """Shows a progress bar with a Cancel button. Yields the function that a job calls with its progress."""
-    bar = QtGui.QProgressDialog(text, translate("Quadrille", "Cancel"), 0, 100, FreeCADGui.getMainWindow())
+def progress_bar(text: str, busy: bool = False):
+    """Shows a progress bar with a Cancel button. Yields the function that a job calls with its progress. busy: the progress is not known,
+    and the bar only moves."""
+    bar = QtGui.QProgressDialog(text, translate("Quadrille", "Cancel"), 0, 0 if busy else 100, FreeCADGui.getMainWindow())
     bar.setWindowTitle("Quadrille")
     bar.setModal(True)  # only the bar accepts clicks meanwhile
     bar.setMinimumDuration(500)
+    if busy:
+        bar.show()  # otherwise a value would show it
 
     def show(_stage: str, fraction: float) -> bool:
-        bar.setValue(min(99, int(100 * fraction)))  # at 100 the bar would close
+        if not busy:
+            bar.setValue(min(99, int(100 * fraction)))  # at 100 the bar would close
         QtGui.QApplication.processEvents()
         return not bar.wasCanceled()
 

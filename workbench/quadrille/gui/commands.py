@@ -22,10 +22,11 @@ from ..features import mesh_object as core
 from ..features import views as features_views
 from . import (QT_TRANSLATE_NOOP, do, icon, links_text, mesh_clicks, middle_search, overlays, path_of, preferences,
                progress_bar, tell, tell_briefly, transaction, translate, views)
+from .fem_workbench import FEM
 from .length_field import LengthField
 from .mesh_clicks import picked
 
-TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
+TOOLBAR = ["Quadrille_Middle", "Quadrille_Mesh", "Quadrille_Solve", "Quadrille_Surface", "Quadrille_Refine", "Quadrille_Quality",
            "Quadrille_Normals", "Quadrille_Flip", "Quadrille_Adapt", "Quadrille_Export"]
 #: The file formats that the mesher writes, for the file dialog, which shows the first.
 FORMATS = {row["name"]: row["ending"][1:] for row in sorted(TABLES["formats"], key=lambda row: bool(row["ending"] != ".inp"))
@@ -125,6 +126,13 @@ class _Command:
         """What follows outside the transaction."""
 
 
+def _only_middle() -> list:
+    """The middle surface of the document, in a list; an empty list if there are none or several, or if it has a mesh."""
+    objects = FreeCAD.ActiveDocument.Objects
+    found = [obj for obj in objects if middle.is_middle(obj)]
+    return found if len(found) == 1 and not any(is_quad_mesh(obj) for obj in objects) else []
+
+
 class MeshCommand(_Command):
     """Quad mesh from shape."""
 
@@ -134,11 +142,14 @@ class MeshCommand(_Command):
     pixmap = "quadrille_mesh"
     accelerator = "Q, M"
     step = "Create quad mesh"
-    selects = True
+
+    def IsActive(self) -> bool:
+        """Also without a selection, where there is one middle surface to mesh."""
+        return super().IsActive() and bool(FreeCADGui.Selection.getSelection() or _only_middle())
 
     def run(self) -> None:
         document = FreeCAD.ActiveDocument
-        selected = picks.parts_of(picked(document))
+        selected = picks.parts_of(picked(document)) or _only_middle()
         if not selected:
             raise Error(translate("Quadrille", "select one part to mesh, or several"), "usage")
         self._edit, self._made = None, False
@@ -189,6 +200,45 @@ class MeshCommand(_Command):
         FreeCADGui.getDocument(self._edit.Document.Name).setEdit(self._edit.Name)
 
 
+class SolveCommand(_Command):
+    """Solves with CalculiX."""
+
+    name = "Quadrille_Solve"
+    text = QT_TRANSLATE_NOOP("Quadrille_Solve", "Solve")
+    tip = QT_TRANSLATE_NOOP("Quadrille_Solve", "Solve the analysis of a quad mesh with CalculiX, and show the stresses")
+    pixmap = "quadrille_solve"
+    accelerator = "Q, V"
+    step = "Solve"
+
+    def IsActive(self) -> bool:
+        """Also while a mesh's panel is open, which needs no OK then."""
+        return FreeCAD.ActiveDocument is not None and (self._panel() is not None or super().IsActive())
+
+    def Activated(self, _index: int = 0) -> None:
+        """FreeCAD calls this when the command is clicked. What an open panel did is kept."""
+        panel = self._panel()
+        if panel is not None:
+            if not panel.accept():
+                return
+            FreeCADGui.Selection.clearSelection()
+            FreeCADGui.Selection.addSelection(panel.mesh)
+        super().Activated()
+
+    @staticmethod
+    def _panel():
+        """The panel of a mesh, if it is open."""
+        edited = FreeCADGui.ActiveDocument.getInEdit()
+        return getattr(getattr(edited, "Proxy", None), "panel", None)
+
+    def run(self) -> None:
+        self._mesh = path_of(_meshed_in_question())
+        do("import quadrille.gui.solve")
+        do(f"quadrille.gui.solve.solve({self._mesh})")
+
+    def afterwards(self) -> None:
+        do(f"quadrille.gui.solve.show({self._mesh})")
+
+
 class MiddleCommand(_Command):
     """Middle surface."""
 
@@ -207,10 +257,10 @@ class MiddleCommand(_Command):
         selected = picks.parts_of(picked(document))
         if not selected:
             raise Error(translate("Quadrille", "select one thin part, or several that touch"), "usage")
-        analysis = active_analysis(document)
         options = {"join": True} if len(selected) > 1 else {}
         part = _one_part(selected)
         middle_search.find(part, options, self.ask)
+        analysis = active_analysis(document) or self._new_analysis(document)
         if analysis is not None:
             loads = middle.referring_to(part, analysis)
             if loads and self.ask(translate("Quadrille", "{} are on {}. Move them to its middle surface?").format(
@@ -221,6 +271,16 @@ class MiddleCommand(_Command):
         made = [obj for obj in document.Objects if middle.is_middle(obj)][-1]
         FreeCADGui.Selection.clearSelection()
         FreeCADGui.Selection.addSelection(made)
+
+    def _new_analysis(self, document):
+        """In the FEM workbench, offers an analysis where there is none. None if the user does not want one."""
+        if FreeCADGui.activeWorkbench().name() != FEM or any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in document.Objects) \
+                or not self.ask(translate("Quadrille", "There is no analysis. Make one, with CalculiX as its solver, stresses at the "
+                                          "surfaces, and steel as its material (to be changed in the tree)?")):
+            return None
+        do("import quadrille.freecad")
+        do(f"quadrille.freecad.make_analysis(App.getDocument({document.Name!r}))")
+        return active_analysis(document)
 
     #: Asks a yes-or-no question in a message box.
     ask = staticmethod(middle_search.ask)
@@ -468,7 +528,7 @@ class ExportCommand(_Command):
 
 
 #: The commands by the names under which FreeCAD knows them.
-COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SurfaceCommand, RefineCommand, QualityCommand,
+COMMANDS = {command.name: command for command in (MiddleCommand, MeshCommand, SolveCommand, SurfaceCommand, RefineCommand, QualityCommand,
                                                   NormalsCommand, FlipCommand, AdaptCommand, ExportCommand)}
 
 

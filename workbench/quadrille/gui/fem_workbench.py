@@ -15,7 +15,7 @@ from ..document.state import UP_TO_DATE, is_quad_mesh
 from ..features import mesh_object
 from . import do, drawn_icon, path_of, progress_bar, tell, transaction, translate
 
-_FEM = "FemWorkbench"
+FEM = "FemWorkbench"
 #: Milliseconds between two checks of which commands are active, the same as FreeCAD's.
 _INTERVAL = 300
 #: The commands in a mesh's context menu: those that need no selected faces, edges or vertices.
@@ -43,7 +43,7 @@ class _FemEntries:
 
     def show(self, workbench: str) -> None:
         """Called when FreeCAD has activated a workbench and rebuilt its menus."""
-        fem = workbench == _FEM
+        fem = workbench == FEM
         if fem and not self._is_placed:
             self._is_placed = True
             window = FreeCADGui.getMainWindow()

@@ -13,6 +13,8 @@ class MeshViewProvider:
 
     #: The undo step that has just made the object, for the panel that opens next.
     made_by = ""
+    #: The task panel while it is open.
+    panel = None
 
     def __init__(self, vobj) -> None:
         vobj.Proxy = self
@@ -63,11 +65,13 @@ class MeshViewProvider:
         if vobj.Object.Shape is None:
             tell(translate("Quadrille", "{}: the part that it meshes is gone.").format(vobj.Object.Label))
             return False
-        FreeCADGui.Control.showDialog(MeshPanel(vobj.Object, made_by))
+        self.panel = MeshPanel(vobj.Object, made_by)
+        FreeCADGui.Control.showDialog(self.panel)
         return True
 
     def unsetEdit(self, _vobj, _mode=0) -> bool:
         """Closes the task panel."""
+        self.panel = None
         FreeCADGui.Control.closeDialog()
         return True
 

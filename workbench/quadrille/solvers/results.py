@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results at the surfaces of shells: which solvers can give them, and a hint where they are missing. Runs inside FreeCAD."""
+"""Results at the surfaces of shells: which solvers can give them, an analysis with one, and a hint where they are missing. Runs inside
+FreeCAD."""
 
 from typing import Any, List
 
@@ -16,6 +17,22 @@ def solvers_of(analysis) -> List[Any]:
     """The solver objects of an analysis that can give results at the surfaces of shells."""
     members = analysis.Group if analysis is not None else ()
     return [member for member in members if SURFACE_RESULTS in member.PropertiesList]
+
+
+def make_analysis(document):
+    """Makes the active analysis of a document: a CalculiX solver that gives results at the surfaces of shells, and steel."""
+    import ObjectsFem
+
+    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+    make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+    setattr(analysis.addObject(make_solver(document))[0], SURFACE_RESULTS, True)
+    material = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
+    material.Material = {"Name": "CalculiX-Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.30", "Density": "7900 kg/m^3"}
+    if FreeCAD.GuiUp:
+        import FemGui
+
+        FemGui.setActiveAnalysis(analysis)
+    return analysis
 
 
 def hint_at_surfaces(result, analysis) -> None:
