@@ -84,6 +84,14 @@ struct CadFace {
   std::vector<InnerVertex> inner_vertices;
   double u_min = 0, u_max = 0, v_min = 0, v_max = 0;  ///< bounds of the trimmed face in the parameter plane
   double tolerance = 0;
+
+  /// The edges of all wires in their order; a seam's edge twice.
+  std::vector<EdgeId> edges() const {
+    std::vector<EdgeId> result;
+    for (const CadWire& wire : wires)
+      for (const Coedge& coedge : wire.coedges) result.push_back(coedge.edge);
+    return result;
+  }
 };
 
 /// Immutable once built.
@@ -105,6 +113,14 @@ class CadShape {
   Vector3 box_min, box_max;
 
   double diagonal() const { return (box_max - box_min).norm(); }
+  /// The vertex at which the wire enters a coedge; none on an edge without vertices.
+  VertexId start_of(const Coedge& coedge) const {
+    return coedge.forward ? edges[coedge.edge].first_vertex : edges[coedge.edge].last_vertex;
+  }
+  /// The vertex at which the wire leaves a coedge; none on an edge without vertices.
+  VertexId end_of(const Coedge& coedge) const {
+    return coedge.forward ? edges[coedge.edge].last_vertex : edges[coedge.edge].first_vertex;
+  }
 
  private:
   void read_topology();

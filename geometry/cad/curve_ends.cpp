@@ -194,15 +194,6 @@ class CurveEndMender {
     std::erase_if(face.wires, [](const CadWire& wire) { return wire.coedges.empty(); });
   }
 
-  VertexId start_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    return coedge.forward ? edge.first_vertex : edge.last_vertex;
-  }
-  VertexId end_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    return coedge.forward ? edge.last_vertex : edge.first_vertex;
-  }
-
   /// Closes gaps between the end of a coedge and the start of the next one by an edge of a split vertex.
   void close_wires(FaceId id) {
     CadFace& face = shape_.faces[id];
@@ -211,8 +202,8 @@ class CurveEndMender {
         const Coedge& now = wire.coedges[i];
         const Coedge& next = wire.coedges[(i + 1) % wire.coedges.size()];
         if (!touched_.contains(now.edge) || !touched_.contains(next.edge)) continue;
-        if (end_of(now) == start_of(next)) continue;
-        Coedge link = link_between(face, end_of(now), start_of(next));
+        if (shape_.end_of(now) == shape_.start_of(next)) continue;
+        Coedge link = link_between(face, shape_.end_of(now), shape_.start_of(next));
         if (!link.edge.exists()) continue;
         CadEdge& edge = shape_.edges[link.edge];
         edge.faces.insert(std::upper_bound(edge.faces.begin(), edge.faces.end(), id), id);

@@ -40,9 +40,7 @@ FaceGaps::FaceGaps(const CadShape& shape, FaceId face, double widest, double nar
   const CadFace& cad = shape.faces[face];
   const FaceSurface surface(cad);
   std::map<EdgeId, int> uses;  // seams are used twice and do not bound the face
-  for (const CadWire& wire : cad.wires) {
-    for (const Coedge& coedge : wire.coedges) ++uses[coedge.edge];
-  }
+  for (const EdgeId edge : cad.edges()) ++uses[edge];
   for (const CadWire& wire : cad.wires) {
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape.edges[coedge.edge];

@@ -111,7 +111,7 @@ class CoplanarFaces {
   void grow(Group& group, const FaceFlags& taken, std::size_t most) const {
     for (std::size_t i = 0; i < group.members.size(); ++i) {
       const FaceId member = group.members[i];
-      for_each_edge(member, [&](EdgeId edge) {
+      for (const EdgeId edge : shape_.faces[member].edges()) {
         for (const FaceId next : shape_.edges[edge].faces) {
           if (taken[next] || group.inside.contains(next) || !planes_[next] || stays(edge)) continue;
           if (!does_harm(edge, group, *planes_[next]) || !lie_beside_each_other(edge, member, next)) continue;
@@ -121,14 +121,17 @@ class CoplanarFaces {
           if ((bends || group.bends) && (group.members.size() >= most ||
                                          group.whole.width() + planes_[next]->width() > limits_.largest))
             continue;
-          if (has_edge_that_stays(next, group.inside)) continue;
-          group.whole.add(*planes_[next], shared_length(next, group.inside));
+          const std::vector<EdgeId> shared = shared_edges(next, group.inside);
+          if (std::any_of(shared.begin(), shared.end(), [&](EdgeId id) { return stays(id); })) continue;
+          double length = 0;
+          for (const EdgeId id : shared) length += shape_.edges[id].length;
+          group.whole.add(*planes_[next], length);
           group.bends |= bends;
           group.bulge = std::max(group.bulge, off);
           group.inside.insert(next);
           group.members.push_back(next);
         }
-      });
+      }
     }
   }
 
@@ -138,12 +141,12 @@ class CoplanarFaces {
     std::set<FaceId> seen{first};
     for (std::size_t i = 0; i < found.size() && found.size() < most; ++i) {
       const FaceId member = found[i];
-      for_each_edge(member, [&](EdgeId edge) {
+      for (const EdgeId edge : shape_.faces[member].edges()) {
         for (const FaceId next : shape_.edges[edge].faces) {
           if (taken[next] || !planes_[next] || stays(edge) || !are_facets(member, next)) continue;
           if (seen.insert(next).second) found.push_back(next);
         }
-      });
+      }
     }
     return found.size();
   }
@@ -152,25 +155,18 @@ class CoplanarFaces {
   bool find_touching(Group& group) const {
     std::map<VertexId, int> ends;
     for (const FaceId member : group.members)
-      for_each_edge(member, [&](EdgeId id) {
+      for (const EdgeId id : shape_.faces[member].edges()) {
         const CadEdge& edge = shape_.edges[id];
-        if (std::all_of(edge.faces.begin(), edge.faces.end(),
-                        [&](FaceId face) { return group.inside.contains(face); }) &&
-            edge.faces.size() == 2)
-          return;
+        if (edge.faces.size() == 2 && group.inside.contains(edge.faces[0]) &&
+            group.inside.contains(edge.faces[1]))
+          continue;
         ++ends[edge.first_vertex];
         ++ends[edge.last_vertex];
-      });
+      }
     const std::size_t before = group.touching.size();
     for (const auto& [vertex, count] : ends)
       if (count > 2) group.touching.insert(vertex);
     return group.touching.size() > before;
-  }
-
-  template <class Act>
-  void for_each_edge(FaceId face, Act&& act) const {
-    for (const CadWire& wire : shape_.faces[face].wires)
-      for (const Coedge& coedge : wire.coedges) act(coedge.edge);
   }
 
   std::optional<PlaneFace> plane_of(FaceId id) const {
@@ -197,9 +193,9 @@ class CoplanarFaces {
     for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
       const Coedge &coedge = wire.coedges[i], &next = wire.coedges[(i + 1) % wire.coedges.size()];
       const CadEdge &edge = shape_.edges[coedge.edge], &after = shape_.edges[next.edge];
-      const VertexId end = coedge.forward ? edge.last_vertex : edge.first_vertex;
-      const VertexId start = next.forward ? after.first_vertex : after.last_vertex;
-      if (!wire.ordered || coedge.internal || !(edge.length > 0) || end != start) return false;
+      const VertexId end = shape_.end_of(coedge);
+      if (!wire.ordered || coedge.internal || !(edge.length > 0) || end != shape_.start_of(next))
+        return false;
       const Vector2 in = direction(edge, coedge, false), out = direction(after, next, true);
       const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
       plane.angles[end] += std::numbers::pi - turn;
@@ -225,22 +221,12 @@ class CoplanarFaces {
            sizing_.names_vertex(edge.last_vertex.number());
   }
 
-  bool has_edge_that_stays(FaceId face, const std::set<FaceId>& inside) const {
-    bool result = false;
-    for_each_edge(face, [&](EdgeId edge) {
+  /// The edges between a face and those of a group.
+  std::vector<EdgeId> shared_edges(FaceId face, const std::set<FaceId>& inside) const {
+    std::vector<EdgeId> result = shape_.faces[face].edges();
+    std::erase_if(result, [&](EdgeId edge) {
       const auto& faces = shape_.edges[edge].faces;
-      result = result || (stays(edge) && std::any_of(faces.begin(), faces.end(),
-                                                     [&](FaceId other) { return inside.contains(other); }));
-    });
-    return result;
-  }
-
-  double shared_length(FaceId face, const std::set<FaceId>& inside) const {
-    double result = 0;
-    for_each_edge(face, [&](EdgeId edge) {
-      const auto& faces = shape_.edges[edge].faces;
-      if (std::any_of(faces.begin(), faces.end(), [&](FaceId other) { return inside.contains(other); }))
-        result += shape_.edges[edge].length;
+      return std::none_of(faces.begin(), faces.end(), [&](FaceId other) { return inside.contains(other); });
     });
     return result;
   }
@@ -270,12 +256,12 @@ class CoplanarFaces {
     constexpr int samples = 4;
     const double tolerance = std::max(shape_.faces[first].tolerance, shape_.faces[face].tolerance);
     double result = 0;
-    for_each_edge(face, [&](EdgeId id) {
+    for (const EdgeId id : shape_.faces[face].edges()) {
       for (const Vector3& point : points_along(shape_.edges[id], samples)) {
         const double off = std::abs((point - plane.origin).dot(plane.normal));
         if (off > std::max(tolerance, shape_.edges[id].tolerance)) result = std::max(result, off);
       }
-    });
+    }
     return result;
   }
 
@@ -354,16 +340,14 @@ class FaceJoiner {
       coedge.source = TopoDS::Edge(coedge.source.Oriented(coedge.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
       double from = 0, to = 0;
       coedge.parametric_curve = BRep_Tool::CurveOnSurface(coedge.source, first.face, from, to);
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      const VertexId start = coedge.forward ? edge.first_vertex : edge.last_vertex;
+      const VertexId start = shape_.start_of(coedge);
       is_plain = is_plain && !coedge.parametric_curve.IsNull() && start.exists() &&
                  starts.emplace(start, std::move(coedge)).second;
     });
     while (is_plain && !starts.empty()) {
       CadWire wire;
       for (auto next = starts.begin(); next != starts.end();) {
-        const CadEdge& edge = shape_.edges[next->second.edge];
-        const VertexId end = next->second.forward ? edge.last_vertex : edge.first_vertex;
+        const VertexId end = shape_.end_of(next->second);
         wire.coedges.push_back(std::move(next->second));
         starts.erase(next);
         next = starts.find(end);
@@ -394,13 +378,11 @@ void replace(CadShape& shape, const FaceJoiner& joiner, CadFace face, Simplified
     model.taken_by[member] = first;
     shape.faces[member].wires.clear();
   }
-  for (const CadWire& wire : face.wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      auto& faces = shape.edges[coedge.edge].faces;
-      for (FaceId& at : faces)
-        if (model.taken_by[at].exists()) at = model.taken_by[at];
-      std::sort(faces.begin(), faces.end());
-    }
+  for (const EdgeId edge : face.edges()) {
+    auto& faces = shape.edges[edge].faces;
+    for (FaceId& at : faces)
+      if (model.taken_by[at].exists()) at = model.taken_by[at];
+    std::sort(faces.begin(), faces.end());
   }
   shape.faces[first] = std::move(face);
 }

@@ -274,8 +274,7 @@ void free_sides_beside_chains(const CadShape& shape, const FaceFlags& used, cons
   for (const FaceId face : freed.ids()) {
     if (!freed[face] || !used[face]) continue;
     sides[face] = {};
-    for (const CadWire& wire : shape.faces[face].wires)
-      for (const Coedge& coedge : wire.coedges) sides[face].rest.push_back(coedge.edge);
+    sides[face].rest = shape.faces[face].edges();
   }
 }
 

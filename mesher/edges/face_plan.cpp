@@ -86,13 +86,11 @@ FacePlan plan_of(const CadShape& shape, const CadFace& face, FaceSides sides, bo
                  const BoundaryNodes& nodes) {
   FacePlan plan;
   plan.stride = subdivided ? 2 : 1;
-  for (const CadWire& wire : face.wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      const BoundaryNodes::Edge& edge = nodes.edges[coedge.edge];
-      if (edge.segments() % 2 == 1) plan.stride = 1;
-      plan.has_kept_edge |= edge.kept;
-      plan.has_divided_edge |= edge.divided;
-    }
+  for (const EdgeId id : face.edges()) {
+    const BoundaryNodes::Edge& edge = nodes.edges[id];
+    if (edge.segments() % 2 == 1) plan.stride = 1;
+    plan.has_kept_edge |= edge.kept;
+    plan.has_divided_edge |= edge.divided;
   }
   plan.is_filled = sides.is_filled();
   plan.keeps_rows = sides.is_filled() && plan.has_kept_edge;

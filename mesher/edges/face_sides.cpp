@@ -50,9 +50,7 @@ class SideFinder {
     if (walks.size() == 1) take_corners(walks[0], sides);
     if (walks.size() == 2) take_ring(walks[0], walks[1], sides);
     if (walks.size() >= 2 && sides.facing.empty()) take_holes(walks, sides);
-    if (!sides.facing.empty()) return sides;
-    for (const CadWire& wire : face.wires)
-      for (const Coedge& coedge : wire.coedges) sides.rest.push_back(coedge.edge);
+    if (sides.facing.empty()) sides.rest = face.edges();
     return sides;
   }
 

@@ -153,12 +153,9 @@ class HoleFinder {
   }
 
   bool stays(FaceId face) const {
-    const auto& wires = shape_.faces[face].wires;
+    const auto edges = shape_.faces[face].edges();
     return sizing_.names_face(face.number()) ||
-           std::any_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
-             return std::any_of(wire.coedges.begin(), wire.coedges.end(),
-                                [&](const Coedge& c) { return stays(shape_.edges[c.edge]); });
-           });
+           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return stays(shape_.edges[edge]); });
   }
 
   /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.
@@ -178,12 +175,10 @@ class HoleFinder {
       const FaceId face = next.back();
       next.pop_back();
       if (face == mouth.host || stays(face) || faces.size() > most_faces) return std::nullopt;
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) {
-          const int loop = loop_of_[coedge.edge];
-          if (loop == none) reach(coedge.edge, face);
-          if (loop != none) loops.insert(loop);
-        }
+      for (const EdgeId edge : shape_.faces[face].edges()) {
+        const int loop = loop_of_[edge];
+        if (loop == none) reach(edge, face);
+        if (loop != none) loops.insert(loop);
       }
     }
     if (loops.size() > 2) return std::nullopt;
@@ -206,15 +201,13 @@ class HoleFinder {
     double height = 0;
     int count = 0;
     for (const FaceId face : hole.faces) {
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) {
-          for (const Vector3& point : points_along(shape_.edges[coedge.edge], samples)) {
-            const Vector3 from = point - mouth.center;
-            if (from.cross(axis).norm() > diameter_) return false;
-            height = std::max(height, from.dot(mouth.axis));
-            middle += point;
-            ++count;
-          }
+      for (const EdgeId edge : shape_.faces[face].edges()) {
+        for (const Vector3& point : points_along(shape_.edges[edge], samples)) {
+          const Vector3 from = point - mouth.center;
+          if (from.cross(axis).norm() > diameter_) return false;
+          height = std::max(height, from.dot(mouth.axis));
+          middle += point;
+          ++count;
         }
       }
     }
@@ -281,12 +274,7 @@ class Filler {
     }
     std::erase_if(result_.holes, [](const auto& inner) { return inner.in.empty(); });
     result_.areas[face] = 0;
-    for (const CadWire& wire : shape_->faces[face].wires) release(wire);
-  }
-
-  /// No face uses these edges any more.
-  void release(const CadWire& wire) {
-    for (const Coedge& coedge : wire.coedges) shape_->edges[coedge.edge].faces.clear();
+    for (const EdgeId edge : shape_->faces[face].edges()) shape_->edges[edge].faces.clear();
   }
 
   void close(FaceId host, const std::set<std::size_t>& which) {
@@ -298,8 +286,10 @@ class Filler {
         left.push_back(face.wires[i]);
         continue;
       }
-      release(face.wires[i]);
-      for (const Coedge& coedge : face.wires[i].coedges) gone.Add(coedge.source);
+      for (const Coedge& coedge : face.wires[i].coedges) {
+        shape_->edges[coedge.edge].faces.clear();
+        gone.Add(coedge.source);
+      }
     }
     face.wires = std::move(left);
     const TopoDS_Face before = face.face;

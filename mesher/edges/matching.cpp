@@ -67,8 +67,7 @@ Outline outline_of(const CadShape& shape, int dimension, int number) {
   std::set<EdgeId> edges;
   if (dimension == 2) {
     result.face = FaceId::from_number(number);
-    for (const CadWire& wire : shape.faces[result.face].wires)
-      for (const Coedge& coedge : wire.coedges) edges.insert(coedge.edge);
+    for (const EdgeId edge : shape.faces[result.face].edges()) edges.insert(edge);
   } else {
     for (const EdgeId id : shape.edges.ids())
       if (shape.edges[id].number == number) edges.insert(id);

@@ -83,14 +83,6 @@ class Placing {
     return (p - p.cwiseMax(low).cwiseMin(high)).norm();
   }
 
-  /// Calls visit(edge id) for each edge of the faces.
-  template <class Visit>
-  void for_edges(const std::vector<FaceId>& faces, Visit&& visit) const {
-    for (const FaceId face : faces)
-      for (const CadWire& wire : shape_->faces[face].wires)
-        for (const Coedge& coedge : wire.coedges) visit(coedge.edge);
-  }
-
   VertexId nearest_vertex(const std::vector<FaceId>& faces, const Vector3& p) const {
     VertexId nearest;
     double least = endless;
@@ -101,10 +93,12 @@ class Placing {
       nearest = vertex;
       least = distance;
     };
-    for_edges(faces, [&](EdgeId edge) {
-      look_at(shape_->edges[edge].first_vertex);
-      look_at(shape_->edges[edge].last_vertex);
-    });
+    for (const FaceId face : faces) {
+      for (const EdgeId edge : shape_->faces[face].edges()) {
+        look_at(shape_->edges[edge].first_vertex);
+        look_at(shape_->edges[edge].last_vertex);
+      }
+    }
     for (const FaceId face : faces)
       for (const InnerVertex& inner : shape_->faces[face].inner_vertices) look_at(inner.vertex);
     return nearest;
@@ -114,14 +108,16 @@ class Placing {
   std::pair<EdgeId, double> nearest_edge(const std::vector<FaceId>& faces, const Vector3& p) const {
     std::pair<EdgeId, double> nearest{EdgeId(), 0};
     double least = endless;
-    for_edges(faces, [&](EdgeId id) {
-      const CadEdge& edge = shape_->edges[id];
-      if (edge.degenerate || !(edge.length > 0)) return;
-      const auto [distance, parameter] = project(edge, p);
-      if (distance > std::max(tolerance_, edge.tolerance) || !(distance < least)) return;
-      nearest = {id, parameter};
-      least = distance;
-    });
+    for (const FaceId face : faces) {
+      for (const EdgeId id : shape_->faces[face].edges()) {
+        const CadEdge& edge = shape_->edges[id];
+        if (edge.degenerate || !(edge.length > 0)) continue;
+        const auto [distance, parameter] = project(edge, p);
+        if (distance > std::max(tolerance_, edge.tolerance) || !(distance < least)) continue;
+        nearest = {id, parameter};
+        least = distance;
+      }
+    }
     return nearest;
   }
 

@@ -124,8 +124,8 @@ class RowLineFinder {
       return;
     }
     lines_.heads = std::move(heads);
-    note_step(line.ends[0], before, start_of(first), *layers_of(first.edge));
-    note_step(line.ends[1], after, start_of(after), *layers_of(first.edge));
+    note_step(line.ends[0], before, shape_.start_of(first), *layers_of(first.edge));
+    note_step(line.ends[1], after, shape_.start_of(after), *layers_of(first.edge));
     add(face, std::move(line));
   }
 
@@ -161,11 +161,6 @@ class RowLineFinder {
     if (left < std::max((1 - most_of_edge) * edge.length, line.heights.back()))
       return fmt::format("its rows would end on Edge{}, which is too short for them", edge.number);
     return {};
-  }
-
-  VertexId start_of(const Coedge& coedge) const {
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    return coedge.forward ? edge.first_vertex : edge.last_vertex;
   }
 
   /// Requests sizes where rows end freely, and where another face has the short segments on which they end.

@@ -60,9 +60,8 @@ class SingleSegments {
     FaceFlags odd(shape_.faces.size(), 0);
     for (const FaceId face : shape_.faces.ids()) {
       std::map<EdgeId, int> uses;  // of chords by the face
-      for (const CadWire& wire : shape_.faces[face].wires)
-        for (const Coedge& coedge : wire.coedges)
-          if (is_single(coedge.edge)) ++uses[chord(coedge.edge)];
+      for (const EdgeId edge : shape_.faces[face].edges())
+        if (is_single(edge)) ++uses[chord(edge)];
       for (const auto& [id, count] : uses) {
         if (count % 2 == 0) continue;
         edges[id].faces.push_back(face);

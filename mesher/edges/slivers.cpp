@@ -77,13 +77,9 @@ struct TubeFinder {
   }
 
   bool is_large(FaceId face) const {
-    if (!used[face]) return false;
-    for (const CadWire& wire : shape.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        if (!is_small(shape.edges[coedge.edge], width)) return true;
-      }
-    }
-    return false;
+    const auto edges = shape.faces[face].edges();
+    return used[face] && !std::all_of(edges.begin(), edges.end(),
+                                      [&](EdgeId edge) { return is_small(shape.edges[edge], width); });
   }
 
   /// Whether a face stays within the width of an edge, at samples all over it.
@@ -165,8 +161,8 @@ class SliverFinder {
       LongEdge& added = edges_.emplace_back();
       added.edge = coedge.edge;
       added.forward = coedge.forward;
-      added.from = coedge.forward ? edge.first_vertex : edge.last_vertex;
-      added.to = coedge.forward ? edge.last_vertex : edge.first_vertex;
+      added.from = shape_.start_of(coedge);
+      added.to = shape_.end_of(coedge);
     }
     const int n = static_cast<int>(edges_.size());
     for (int i = first; i < n; ++i) {

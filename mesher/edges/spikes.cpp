@@ -80,25 +80,19 @@ class SpikeFinder {
       for (const Coedge& coedge : wire.coedges)
         if (!is_small(shape_.edges[coedge.edge], width_)) coedges.push_back(&coedge);
       for (std::size_t i = 0; i < coedges.size(); ++i) {
-        leaving.emplace(vertex_at(*coedges[i], false), coedges[i]);
+        leaving.emplace(shape_.start_of(*coedges[i]), coedges[i]);
         arriving.push_back(coedges[i]);
         add(*coedges[i], *coedges[(i + 1) % coedges.size()]);
       }
     }
     for (const Coedge* before : arriving) {
-      const auto [first, last] = leaving.equal_range(vertex_at(*before, true));
+      const auto [first, last] = leaving.equal_range(shape_.end_of(*before));
       for (auto after = first; after != last; ++after) add(*before, *after->second);
     }
     return std::move(found_);
   }
 
  private:
-  /// The vertex where a coedge begins, or ends.
-  VertexId vertex_at(const Coedge& coedge, bool end) const {
-    const CadEdge& edge = shape_.edges[coedge.edge];
-    return coedge.forward == end ? edge.last_vertex : edge.first_vertex;
-  }
-
   bool may_narrow(const Coedge& coedge) const {
     const CadEdge& edge = shape_.edges[coedge.edge];
     return !coedge.internal && !edge.degenerate && edge.first_vertex.exists() && edge.last_vertex.exists() &&
@@ -128,12 +122,12 @@ class SpikeFinder {
     if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, narrow))) {
       if (!lies_between(before, one.parameters.back(), one.curve, other_last)) return false;
       // Vertices that share a node have it where the first of them lies: on the edge that keeps its nodes.
-      const VertexId end = vertex_at(before, false), other_end = vertex_at(after, true);
+      const VertexId end = shape_.start_of(before), other_end = shape_.end_of(after);
       const auto [edge, other] = std::minmax({std::pair(end, before.edge), std::pair(other_end, after.edge)});
       found_.push_back({.face = id_,
                         .pairs = {{edge.second, other.second, before.forward == after.forward}},
                         .ties = {{end, other_end}},
-                        .joints = {{vertex_at(before, true), vertex_at(after, false)}},
+                        .joints = {{shape_.end_of(before), shape_.start_of(after)}},
                         .rims = {},
                         .is_spike = true});
       return true;

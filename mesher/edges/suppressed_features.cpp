@@ -60,12 +60,10 @@ class HarmFinder {
         return other != id && used_[other] && !tiny_.merged_faces[other];
       });
     };
-    const auto& wires = shape_.faces[id].wires;
+    const auto edges = shape_.faces[id].edges();
     return hole.ordered && std::none_of(hole.coedges.begin(), hole.coedges.end(), is_left) &&
            std::none_of(hole.coedges.begin(), hole.coedges.end(), is_open) &&
-           std::any_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
-             return std::any_of(wire.coedges.begin(), wire.coedges.end(), is_left);
-           });
+           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return tiny_.has(id, edge); });
   }
 
   /// Whether the rest of a loop is too small for elements.
@@ -153,11 +151,8 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
   EdgeFlags fine = wanted_fine;
   hold(held, fine);
   for (const FaceId face : kept_faces_.ids()) {
-    const auto& wires = shape.faces[face].wires;
-    kept_faces_[face] = std::all_of(wires.begin(), wires.end(), [&](const CadWire& wire) {
-      return std::all_of(wire.coedges.begin(), wire.coedges.end(),
-                         [&](const Coedge& coedge) { return fine[coedge.edge] != 0; });
-    });
+    const auto edges = shape.faces[face].edges();
+    kept_faces_[face] = std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) { return fine[edge] != 0; });
   }
   choose(fine);
   while (keep_harmed()) {
@@ -175,9 +170,8 @@ void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine
     fine[id] |= ends[id];
   }
   for (const Sliver& sliver : slivers_) {
-    for (const CadWire& wire : shape_.faces[sliver.face].wires)
-      for (const Coedge& coedge : wire.coedges)
-        if (ends[coedge.edge]) keep_face(sliver.face, "a node is placed at its boundary");
+    for (const EdgeId edge : shape_.faces[sliver.face].edges())
+      if (ends[edge]) keep_face(sliver.face, "a node is placed at its boundary");
   }
 }
 
@@ -236,9 +230,7 @@ bool SuppressedFeatures::keep_harmed() {
       if (!tiny.cuts(face) || kept_faces_[face]) continue;
       keep_face(face, why);
       any = true;
-      for (const CadWire& wire : shape_.faces[face].wires) {
-        for (const Coedge& coedge : wire.coedges) keep_edge(coedge.edge, why);
-      }
+      for (const EdgeId other : shape_.faces[face].edges()) keep_edge(other, why);
     }
   };
   for (const FaceId face : used_.ids()) {
@@ -272,13 +264,10 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
     keep_face(other, why);
   };
   keep(face);
-  for (const CadWire& wire : shape_.faces[face].wires) {
-    for (const Coedge& coedge : wire.coedges) {
-      if (!edges.empty() && std::find(edges.begin(), edges.end(), coedge.edge) == edges.end()) continue;
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
-      for (const FaceId other : edge.faces) keep(other);
-    }
+  for (const EdgeId id : edges.empty() ? shape_.faces[face].edges() : edges) {
+    const CadEdge& edge = shape_.edges[id];
+    here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
+    for (const FaceId other : edge.faces) keep(other);
   }
   for (const EdgeId edge : edges_.ids()) {
     if (!edges_[edge] || !here.contains(tiny.end(shape_.edges[edge].first_vertex))) continue;

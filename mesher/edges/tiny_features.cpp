@@ -102,12 +102,9 @@ class Finder {
   void merge(FaceId face) {
     std::vector<EdgeId> left;
     bool any_collapsed = false;
-    for (const CadWire& wire : shape_.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges) {
-        const EdgeId edge = coedge.edge;
-        any_collapsed |= tiny_.collapsed_edges[edge] != 0;
-        if (tiny_.has(face, edge) && !shape_.edges[edge].degenerate) left.push_back(edge);
-      }
+    for (const EdgeId edge : shape_.faces[face].edges()) {
+      any_collapsed |= tiny_.collapsed_edges[edge] != 0;
+      if (tiny_.has(face, edge) && !shape_.edges[edge].degenerate) left.push_back(edge);
     }
     // A face without any collapsed edge is not tiny, even if all its edges are poles.
     if (left.empty() && any_collapsed) tiny_.merged_faces[face] = 1;
@@ -204,10 +201,8 @@ IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used
   IdVector<EdgeId, int> uses(shape.edges.size());
   for (const FaceId face : used.ids()) {
     if (!used[face] || tiny.merged_faces[face]) continue;
-    for (const CadWire& wire : shape.faces[face].wires) {
-      for (const Coedge& coedge : wire.coedges)
-        uses[tiny.edges[coedge.edge]] += !tiny.folded.contains({face, coedge.edge});
-    }
+    for (const EdgeId edge : shape.faces[face].edges())
+      uses[tiny.edges[edge]] += !tiny.folded.contains({face, edge});
   }
   return uses;
 }
@@ -242,8 +237,7 @@ double distance_between(const CadEdge& edge, const CadEdge& other) {
     const Vector3& p = along[i];
     double nearest = (p - points[0]).norm();
     for (int k = 0; k < dense; ++k) {
-      const double t = nearest_share(points[k], points[k + 1], p);
-      nearest = std::min(nearest, (p - points[k] - t * (points[k + 1] - points[k])).norm());
+      nearest = std::min(nearest, distance_to_segment(p, points[k], points[k + 1]));
     }
     farthest = std::max(farthest, nearest);
   }
