@@ -68,8 +68,8 @@ void print_field(const std::string& path, const SizingOptions& options, int thre
   });
   fmt::print("{}, gradation {}, sizes {:.3g} to {:.3g} mm\n{:>6}{:>12}{:>10}{:>10}{:>10}\n",
              std::filesystem::path(path).filename().string(),
-             options.gradation == Gradation::surface ? "surface" : "space", field->size_min(),
-             field->size_max(), "level", "voxel mm", "blocks", "MB", "s");
+             options.gradation == Gradation::surface ? "surface" : "space", field->limits().least,
+             field->limits().largest, "level", "voxel mm", "blocks", "MB", "s");
   double megabytes = 0;
   int number = 0;
   for (const SizingField::Level& level : field->levels()) {

@@ -179,7 +179,7 @@ void find_rulers(const CadModel& model, const MeshOptions& options, const Look& 
 SurfaceTriangles triangles_for(const CadModel& model, const MeshOptions& options, const SizingField& field,
                                const ExecutionContext& context) {
   const double share = longest_share * model.diagonal();
-  const double deflection = std::min(0.1 * field.size_max(), share);
+  const double deflection = std::min(0.1 * field.limits().largest, share);
   SurfaceTriangles surface =
       triangulate_surface(model.shape(), deflection, turn_of_triangle, faces_used(model, options), context);
   IdVector<FaceId, std::unique_ptr<SizingField::Sampler>> samplers(model.face_count());

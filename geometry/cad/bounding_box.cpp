@@ -66,10 +66,8 @@ class Reach {
 };
 
 Reach reach_of(const TopoDS_Shape& part) {
-  Bnd_Box box;
-  BRepBndLib::Add(part, box, Standard_False);
   Reach reach;
-  reach.add(box);
+  reach.add(box_of(part));
   return reach;
 }
 
@@ -215,6 +213,12 @@ BoundingBox bounding_box(const CadShape& shape) {
     wide.add(known);
   }
   return {{-wide[3], -wide[4], -wide[5]}, {wide[0], wide[1], wide[2]}};
+}
+
+Bnd_Box box_of(const TopoDS_Shape& part) {
+  Bnd_Box box;
+  BRepBndLib::Add(part, box, Standard_False);
+  return box;
 }
 
 }  // namespace quadrille

@@ -1,6 +1,8 @@
 #pragma once
 /// The box around a model. Internal.
 
+#include <Bnd_Box.hxx>
+
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/cad_shape.hpp"
 
@@ -15,5 +17,8 @@ struct BoundingBox {
 /// do: then it is where the trimmed faces end, to about 1e-7 of their size. Takes a few microseconds for each
 /// face and edge, and about a millisecond for each face whose own box is too wide.
 BoundingBox bounding_box(const CadShape& shape);
+
+/// OpenCASCADE's own box around a face, an edge or more: quick, but often too wide. Void if it is nowhere.
+Bnd_Box box_of(const TopoDS_Shape& part);
 
 }  // namespace quadrille

@@ -120,4 +120,10 @@ using FaceFlags = IdVector<FaceId, char>;      ///< a property of faces: 1 = the
 using EdgeFlags = IdVector<EdgeId, char>;      ///< a property of edges: 1 = the edge has it
 using VertexFlags = IdVector<VertexId, char>;  ///< a property of vertices: 1 = the vertex has it
 
+/// Whether a face, edge or vertex has a property; where there are no flags, none has it.
+template <class Id>
+bool is_set(const IdVector<Id, char>& flags, Id id) {
+  return !flags.empty() && flags[id] != 0;
+}
+
 }  // namespace quadrille

@@ -79,8 +79,7 @@ PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& opt
     if (pieces.empty()) continue;
     int segments = spacing.segments;
     if (segments == 0) {
-      const auto own = options.edge_sizes.find(number);
-      const double cap = own == options.edge_sizes.end() ? size : std::min(size, own->second);
+      const double cap = std::min(size, value_or(options.edge_sizes, number, size));
       double length = 0;
       for (const EdgeId piece : pieces) length += shape.edges[piece].length;
       segments = std::max(1, round_to_int(length / cap));

@@ -2,9 +2,6 @@
 
 #include "geometry/sizing/element_count.hpp"
 
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/free_memory.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/coarse_domain.hpp"
 #include "geometry/cad/parallel_ids.hpp"
@@ -23,8 +21,14 @@ namespace quadrille {
 
 namespace {
 
-/// About the largest possible number of elements: each face counts as two squares over the diagonal of its
-/// bounding box (a sphere needs a little more than one).
+/// About the largest possible number of elements on a face: two squares over the diagonal of its bounding
+/// box (a sphere needs a little more than one).
+double most_on(const CadFace& face, double size) {
+  const Bnd_Box box = box_of(face.face);
+  return box.IsVoid() ? 0 : 2 * box.SquareExtent() / (size * size);
+}
+
+/// About the largest possible number of elements.
 double most_elements(const CadShape& shape, const FaceFlags& used, double size, double limit,
                      const ExecutionContext& context) {
   const double all = std::pow(shape.diagonal() / size, 2) * static_cast<double>(shape.faces.size());
@@ -33,10 +37,7 @@ double most_elements(const CadShape& shape, const FaceFlags& used, double size, 
   for (const FaceId face : shape.faces.ids()) {
     if (count > limit) break;
     context.check();
-    if (!used[face]) continue;
-    Bnd_Box box;
-    BRepBndLib::Add(shape.faces[face].face, box, Standard_False);
-    if (!box.IsVoid()) count += 2 * box.SquareExtent() / (size * size);
+    if (used[face]) count += most_on(shape.faces[face], size);
   }
   return count;
 }
@@ -68,11 +69,8 @@ class RegionSum {
     add(low, Vector2(face.u_max, face.v_max) - low, 0);
   }
 
-  /// Visits pieces: visit(area, size).
-  template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (const auto& [area, size] : pieces_) visit(area, size);
-  }
+  /// Area and size of pieces.
+  const std::vector<std::pair<double, double>>& pieces() const { return pieces_; }
 
  private:
   /// The least size of the regions within `distance` of a point; infinite where there is none.
@@ -113,18 +111,20 @@ class RegionSum {
   TrimmedDomain domain_;
   const std::vector<SizeRegion>& regions_;
   double least_;
-  std::vector<std::pair<double, double>> pieces_;  // area, size
+  std::vector<std::pair<double, double>> pieces_;
 };
 
 /// Blocks of the sizing field per voxel-sized square of a surface. The field around a surface is some six
 /// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
 
+double blocks_on(double area, double size, const SizingOptions& options, const SizeLimits& limits) {
+  return blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
+}
+
 /// The size requested on a face itself or by its layers, at most the global one.
 double size_on(const SizingOptions& options, const SizeLimits& limits, FaceId face) {
-  double size = limits.largest;
-  if (const auto own = options.face_sizes.find(face.number()); own != options.face_sizes.end())
-    size = std::min(size, own->second);
+  double size = std::min(limits.largest, value_or(options.face_sizes, face.number(), limits.largest));
   if (const auto own = options.layers.faces.find(face.number()); own != options.layers.faces.end())
     size = std::min(size, own->second.first);
   return size;
@@ -134,9 +134,7 @@ double size_on(const SizingOptions& options, const SizeLimits& limits, FaceId fa
 bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   double squares = 0;
   const auto add = [&](int face, double size) {
-    Bnd_Box box;
-    BRepBndLib::Add(shape.faces[FaceId::from_number(face)].face, box, Standard_False);
-    if (!box.IsVoid()) squares += 2 * box.SquareExtent() / (size * size);
+    squares += most_on(shape.faces[FaceId::from_number(face)], size);
   };
   for (const auto& [face, size] : options.face_sizes) add(face, size);
   for (const auto& [face, layers] : options.layers.faces) add(face, layers.first);
@@ -158,10 +156,11 @@ void hold_regions(const CadShape& shape, const SizingOptions& options, const Siz
   for (const FaceId face : shape.faces.ids()) {
     context.check();
     if (!used[face]) continue;
-    RegionSum(shape, shape.faces[face], regions, limits.least).for_each([&](double area, double size) {
+    const RegionSum sum(shape, shape.faces[face], regions, limits.least);
+    for (const auto& [area, size] : sum.pieces()) {
       elements += area / (size * size);
-      blocks += blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
-    });
+      blocks += blocks_on(area, size, options, limits);
+    }
   }
   hold_elements(elements, options.budget, free);
   if (blocks > options.budget.blocks) throw too_many_blocks(blocks);
@@ -213,13 +212,15 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
       !may_pass_blocks(model.shape(), options))
     return;
   samples_ = sample_faces(model.shape(), used, context);
-  hold_elements(count_elements(samples_,
-                               [&](FaceId face, const FaceSample& sample) {
-                                 return std::min(size_on(options, limits, face),
-                                                 size_of_curvature(options, limits, sample.curvature));
-                               }),
-                budget_, free_);
-  hold_blocks(options, limits);
+  double blocks = 0;
+  const double count = count_elements(samples_, [&](FaceId face, const FaceSample& sample) {
+    const double size =
+        std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
+    if (size < limits.largest) blocks += blocks_on(sample.area, size, options, limits);
+    return size;
+  });
+  hold_elements(count, budget_, free_);
+  if (blocks > budget_.blocks) throw too_many_blocks(blocks);
 }
 
 void ElementBudget::check(const SizingField& field) const {
@@ -232,20 +233,6 @@ void ElementBudget::check(const SizingField& field) const {
                                  return (*size_at)(sample.point);
                                }),
                 budget_, free_);
-}
-
-void ElementBudget::hold_blocks(const SizingOptions& options, const SizeLimits& limits) const {
-  double blocks = 0;
-  for (const FaceId face : samples_.ids()) {
-    for (const FaceSample& sample : samples_[face]) {
-      const double size =
-          std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
-      if (!(size < limits.largest)) continue;
-      blocks +=
-          blocks_a_square * sample.area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
-    }
-  }
-  if (blocks > budget_.blocks) throw too_many_blocks(blocks);
 }
 
 }  // namespace quadrille

@@ -45,8 +45,6 @@ class ElementBudget {
   void check(const SizingField& field) const;
 
  private:
-  void hold_blocks(const SizingOptions& options, const SizeLimits& limits) const;
-
   Budget budget_;
   double free_;          ///< free memory, bytes
   FaceSamples samples_;  ///< empty if the budget cannot be exceeded

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -28,28 +29,6 @@ constexpr int max_depth = 40;
 /// Limits on the number of cells of a face along each parameter before any is halved.
 constexpr int fewest_cells = 4, most_cells = 400;
 
-/// A face's parameter plane in equal cells.
-struct Cells {
-  int nu, nv;
-  Vector2 low, cell;
-  /// Middle of the k-th cell, counted row by row.
-  Vector2 middle(int k) const {
-    const int column = k % nu, row = k / nu;
-    return low + Vector2((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
-  }
-};
-
-/// Cells about as long as `spacing`.
-Cells cells_of(const CadFace& face, const FaceSurface& surface, double spacing) {
-  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
-  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spacing;
-  const auto cells = [](double count) {
-    return to_int(std::clamp<double>(std::ceil(count), fewest_cells, most_cells));
-  };
-  const int nu = cells(lengths.x()), nv = cells(lengths.y());
-  return {nu, nv, low, {extent.x() / nu, extent.y() / nv}};
-}
-
 }  // namespace
 
 SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
@@ -67,9 +46,7 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
 
 /// The size requested on an edge itself and by its length.
 double SizeSources::cap_of(const CadEdge& edge, bool by_shape) const {
-  double cap = limits_.largest;
-  if (const auto it = options_.edge_sizes.find(edge.number); it != options_.edge_sizes.end())
-    cap = it->second;
+  const double cap = value_or(options_.edge_sizes, edge.number, limits_.largest);
   if (!options_.short_edges || !by_shape) return cap;
   // A short edge is one element, and the mesh around it is refined towards it.
   return std::min(cap, std::max(edge.length, limits_.size_min));
@@ -83,7 +60,7 @@ void SizeSources::hold_segments() const {
     if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
     double cap = cap_of(edge, true);
     const auto& layers = options_.layers.edges;
-    if (const auto own = layers.find(edge.number); own != layers.end() && !unsized_.is_layered(id))
+    if (const auto own = layers.find(edge.number); own != layers.end() && !is_set(unsized_.layered, id))
       cap = std::min(cap, own->second.first);
     const double segments = prescribed_[id] ? prescribed_[id]->segments : edge.length / cap;
     sum += segments;
@@ -109,8 +86,8 @@ void SizeSources::edge(EdgeId id, bool by_shape, const Sink& sink) const {
   context_.check();
   const CadEdge& edge = shape_.edges[id];
   if (edge.degenerate || edge.faces.empty() || edge.length <= 0) return;
-  if (prescribed_[id] && !unsized_.is_divided(id)) prescribed_edge(edge, *prescribed_[id], sink);
-  if (unsized_.edge(id) && !options_.edge_sizes.contains(edge.number)) return;
+  if (prescribed_[id] && !is_set(unsized_.divided, id)) prescribed_edge(edge, *prescribed_[id], sink);
+  if (is_set(unsized_.edges, id) && !options_.edge_sizes.contains(edge.number)) return;
   const EdgeCurve curve(edge);
   double cap = cap_of(edge, by_shape);
   if (curve.straight() || !by_shape) {
@@ -178,68 +155,40 @@ void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first
 }
 
 void SizeSources::face(FaceId id, const Sink& sink) const {
-  const CadFace& face = shape_.faces[id];
-  if (unsized_.face(id) && !options_.face_sizes.contains(id.number())) return;
-  const bool gridded = unsized_.is_gridded(id);
+  if (is_set(unsized_.faces, id) && !options_.face_sizes.contains(id.number())) return;
+  const bool gridded = is_set(unsized_.gridded, id);
   if (options_.proximity > 0 || (options_.short_edges && !gridded)) gaps(id, sink);
   if (rays_) walls(id, sink);
-  const FaceSurface surface(face);
-  double cap = limits_.largest;
-  if (const auto it = options_.face_sizes.find(id.number()); it != options_.face_sizes.end())
-    cap = it->second;
+  const FaceSurface surface(shape_.faces[id]);
+  const double cap = value_or(options_.face_sizes, id.number(), limits_.largest);
   const bool curved = !surface.planar() && has_curvature_sizes(options_);
   if (!curved && cap >= limits_.largest && spatial_.empty()) return;
-  const TrimmedDomain domain = coarse_domain(shape_, face);
-  SparseCheck check(context_, 256);
-  const auto sample = [&](const Vector2& middle, const Vector2& part) {
-    check();
-    const SurfacePoint at = surface.evaluate(middle);
+  const auto size_at = [&](const SurfacePoint& at, const Vector2& uv) {
     double size = cap;
-    if (curved)
-      size = std::min(size, (gridded ? options_.aspect : 1) * size_of(surface.max_curvature(middle)));
-    double hint = size;
-    if (!spatial_.empty()) {
-      hint = std::min(size, spatial_.hint(at.point));
-      size = std::min(size, spatial_.at(at.point));
-    }
-    if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
-    return CellSample{hint, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+    if (curved) size = std::min(size, (gridded ? options_.aspect : 1) * size_of(surface.max_curvature(uv)));
+    if (spatial_.empty()) return FaceSize{size, size};
+    return FaceSize{std::min(size, spatial_.at(at.point)), std::min(size, spatial_.hint(at.point))};
   };
-  const Cells cells = cells_of(face, surface, spatial_.spacing());
-  for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
+  sample_face(id, surface, spatial_.spacing(), size_at, sink);
 }
 
-void SizeSources::uniform_edge(EdgeId id, double spacing, const PointSink& sink) const {
+void SizeSources::uniform_edge(EdgeId id, double size, const Sink& sink) const {
   const CadEdge& edge = shape_.edges[id];
   if (edge.degenerate || !(edge.length > 0)) return;
   const EdgeCurve curve(edge);
-  const double n = std::ceil(edge.length / spacing);
+  const double n = std::ceil(edge.length / size);
   if (n > options_.budget.segments) throw too_many_segments(edge, n);
   SparseCheck check(context_, 256);
   for (int i = 0; i <= n; ++i) {
     check();
-    sink(curve.point(edge.first + (edge.last - edge.first) * i / n));
+    sink(curve.point(edge.first + (edge.last - edge.first) * i / n), size);
   }
 }
 
-void SizeSources::uniform_face(FaceId id, double spacing, const PointSink& sink) const {
-  const CadFace& face = shape_.faces[id];
-  const FaceSurface surface(face);
-  const TrimmedDomain domain = coarse_domain(shape_, face);
-  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
-  SparseCheck check(context_, 256);
-  const auto sample = [&](const Vector2& middle, const Vector2& part) {
-    check();
-    const SurfacePoint at = surface.evaluate(middle);
-    if (domain.inside(middle)) sink(at.point);
-    return CellSample{spacing, part.x() * at.du.norm(), part.y() * at.dv.norm()};
-  };
-  const Vector2 cell = extent / fewest_cells;
-  for (int k = 0; k < fewest_cells * fewest_cells; ++k) {
-    const int column = k % fewest_cells, row = k / fewest_cells;
-    const Vector2 place(column + 0.5, row + 0.5);
-    split_cell(sample, low + place.cwiseProduct(cell), cell, 0);
-  }
+void SizeSources::uniform_face(FaceId id, double size, const Sink& sink) const {
+  const auto size_at = [&](const SurfacePoint&, const Vector2&) { return FaceSize{size, size}; };
+  constexpr double widest = std::numeric_limits<double>::infinity();  // cells are halved from the fewest
+  sample_face(id, FaceSurface(shape_.faces[id]), widest, size_at, sink);
 }
 
 /// Requests options.proximity elements across each gap and, with options.short_edges, elements along it that
@@ -266,26 +215,45 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
 
 /// Requests options.proximity_walls elements through the thickness of each wall.
 void SizeSources::walls(FaceId id, const Sink& sink) const {
-  const double n = options_.proximity_walls;
+  const double n = options_.proximity_walls, inward = shape_.faces[id].reversed ? 1 : -1;
+  const FaceSurface surface(shape_.faces[id]);
+  const auto size_at = [&](const SurfacePoint& at, const Vector2& uv) {
+    const auto thickness = rays_->thickness(at.point, inward * surface.normal(at, uv), n * limits_.largest);
+    const double size = thickness ? std::max(*thickness / n, limits_.size_min) : limits_.largest;
+    return FaceSize{size, size};
+  };
+  sample_face(id, surface, limits_.largest, size_at, sink);
+}
+
+/// Samples a face in cells of its parameter plane, at first about as long as `spacing`.
+template <class SizeAt>
+void SizeSources::sample_face(FaceId id, const FaceSurface& surface, double spacing, const SizeAt& size_at,
+                              const Sink& sink) const {
   const CadFace& face = shape_.faces[id];
-  const FaceSurface surface(face);
   const TrimmedDomain domain = coarse_domain(shape_, face);
-  const double inward = face.reversed ? 1 : -1;
   SparseCheck check(context_, 64);
-  const auto sample = [&](const Vector2& middle, const Vector2& part) {
+  const auto sample = [&](const Vector2& middle, const Vector2& cell) {
     check();
     const SurfacePoint at = surface.evaluate(middle);
-    const auto thickness =
-        rays_->thickness(at.point, inward * surface.normal(at, middle), n * limits_.largest);
-    const double size = thickness ? std::max(*thickness / n, limits_.size_min) : limits_.largest;
+    const auto [size, hint] = size_at(at, middle);
     if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
-    return CellSample{size, part.x() * at.du.norm(), part.y() * at.dv.norm()};
+    return std::tuple(hint, cell.x() * at.du.norm(), cell.y() * at.dv.norm());
   };
-  const Cells cells = cells_of(face, surface, limits_.largest);
-  for (int k = 0; k < cells.nu * cells.nv; ++k) split_cell(sample, cells.middle(k), cells.cell, 0);
+  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spacing;
+  const auto cells = [](double count) {
+    return to_int(std::clamp<double>(std::ceil(count), fewest_cells, most_cells));
+  };
+  const int nu = cells(lengths.x()), nv = cells(lengths.y());
+  const Vector2 cell(extent.x() / nu, extent.y() / nv);
+  for (int k = 0; k < nu * nv; ++k) {
+    const Vector2 middle((k % nu + 0.5) * cell.x(), (k / nu + 0.5) * cell.y());
+    split_cell(sample, low + middle, cell, 0);
+  }
 }
 
 /// Samples the middle of a cell of the parameter plane, and of its parts if the cell is larger than the size.
+/// \param sample gives the size in the middle of a cell, and the cell's length and width in space
 template <class SampleAt>
 void SizeSources::split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell,
                              int depth) const {

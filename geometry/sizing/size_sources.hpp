@@ -33,10 +33,9 @@ class SizeSources {
   /// What a face requests inside.
   void face(FaceId id, const Sink& sink) const;
 
-  using PointSink = std::function<void(const Vector3& point)>;
-  /// Points of an edge, and of the inside of a face, about `spacing` apart.
-  void uniform_edge(EdgeId id, double spacing, const PointSink& sink) const;
-  void uniform_face(FaceId id, double spacing, const PointSink& sink) const;
+  /// The same size at points of an edge, or of the inside of a face, about that size apart.
+  void uniform_edge(EdgeId id, double size, const Sink& sink) const;
+  void uniform_face(FaceId id, double size, const Sink& sink) const;
 
  private:
   struct EdgeSample {
@@ -44,9 +43,9 @@ class SizeSources {
     Vector3 point;
     double size, hint;
   };
-  /// The size in the middle of a cell of the parameter plane, and the cell's length and width in space.
-  struct CellSample {
-    double size, length, width;
+  /// The size at a place of a face, and a lower estimate of the sizes around it.
+  struct FaceSize {
+    double size, hint;
   };
 
   void gaps(FaceId id, const Sink& sink) const;
@@ -60,6 +59,9 @@ class SizeSources {
   template <class SampleAt, class Add>
   void split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last, int depth,
                       const Add& add, SparseCheck& check) const;
+  template <class SizeAt>
+  void sample_face(FaceId id, const FaceSurface& surface, double spacing, const SizeAt& size_at,
+                   const Sink& sink) const;
   template <class SampleAt>
   void split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell, int depth) const;
 

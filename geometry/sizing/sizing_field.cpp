@@ -2,8 +2,6 @@
 
 #include "geometry/sizing/sizing_field.hpp"
 
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
 #include <Precision.hxx>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
@@ -39,13 +38,11 @@ constexpr double least_growth = 1e-9;
 class SizingField::Impl {
  public:
   CascadeFrame frame;
-  double size_min = 0;
   SizingOptions options;
-  SizeLimits limits{};
-  FaceFlags gridded;  // see UnsizedFeatures
-  Budget budget;
+  SizeLimits limits;
+  FaceFlags gridded;      // see UnsizedFeatures
   FaceCascades cascades;  // one per face, or one for all
-  bool on_surface = false;
+  bool on_surface;
 
   int cascade_of(FaceId face) const { return on_surface ? face.index() : 0; }
   /// The cascades of these faces, each once.
@@ -72,7 +69,6 @@ class Builder {
         blocks_(options.budget.blocks),
         spatial_(model, options, limits_, blocks_, context),
         sources_(shape_, options_, limits_, unsized, spatial_, context) {
-    field_.on_surface = options.gradation == Gradation::surface;
     field_.cascades = empty_cascades();
     for (std::size_t i = 0; i < field_.cascades.size(); ++i) mutexes_.emplace_back();
   }
@@ -90,7 +86,7 @@ class Builder {
     });
     for (const auto& [vertex, size] : options_.vertex_sizes) {
       const VertexId id = VertexId::from_number(vertex);
-      if (size < limits_.largest) add(cascades_of_vertex(id), shape_.vertices[id], size);
+      adder(field_.cascades, faces_of_vertex(id))(shape_.vertices[id], size);
     }
     add_points();
     add_layers();
@@ -123,8 +119,12 @@ class Builder {
     std::vector<SizePoint> points_;
   };
 
-  void add(const std::set<int>& cascades, const Vector3& p, double size) {
-    for (const int cascade : cascades) field_.cascades[cascade]->add(p, size, blocks_);
+  /// Adds points to the cascades of these faces.
+  SizeSources::Sink adder(FaceCascades& cascades, const std::vector<FaceId>& faces) {
+    return [this, &cascades, which = field_.cascades_of(faces)](const Vector3& p, double size) {
+      if (!(size < limits_.largest)) return;
+      for (const int i : which) cascades[i]->add(p, size, blocks_);
+    };
   }
 
   void add(SizeCascade& cascade, const SizePoint& at) {
@@ -134,18 +134,17 @@ class Builder {
   }
 
   void add_edge(EdgeId edge) {
-    std::vector<FaceId> free, gridded;
-    for (const FaceId face : shape_.edges[edge].faces)
-      (unsized_.is_gridded(face) ? gridded : free).push_back(face);
-    for (const bool by_shape : {true, false}) {
-      if ((by_shape ? free : gridded).empty()) continue;
-      Batch batch(*this, field_.cascades_of(by_shape ? free : gridded));
+    for (const bool by_shape : {true, false}) {  // not by its shape on faces with rows from side to side
+      std::vector<FaceId> faces = shape_.edges[edge].faces;
+      std::erase_if(faces, [&](FaceId face) { return is_set(unsized_.gridded, face) == by_shape; });
+      if (faces.empty()) continue;
+      Batch batch(*this, field_.cascades_of(faces));
       sources_.edge(edge, by_shape, [&](const Vector3& p, double size) { batch.add(p, size); });
       batch.pass_on();
     }
   }
 
-  std::set<int> cascades_of_vertex(VertexId vertex) const {
+  std::vector<FaceId> faces_of_vertex(VertexId vertex) const {
     std::vector<FaceId> faces;
     for (const CadEdge& edge : shape_.edges) {
       if (edge.first_vertex == vertex || edge.last_vertex == vertex)
@@ -156,15 +155,14 @@ class Builder {
         if (inner.vertex == vertex) faces.push_back(face);
       }
     }
-    return field_.cascades_of(faces);
+    return faces;
   }
 
   /// Adds points anywhere in space. What they request on faces is sampled on the faces.
   void add_points() {
     if (field_.on_surface) return;
-    for (const auto& [p, size] : spatial_.points()) {
-      if (size < limits_.largest) add({0}, p, size);
-    }
+    for (const auto& [p, size] : spatial_.points())
+      if (size < limits_.largest) field_.cascades.front()->add(p, size, blocks_);
   }
 
   FaceCascades empty_cascades() const {
@@ -178,43 +176,32 @@ class Builder {
   /// the same voxels, which the field then takes over.
   void add_layers() {
     const auto& layers = options_.layers;
-    for (const auto& [number, sizes] : layers.faces) {
+    for (const auto& [number, own] : layers.faces) {
       const FaceId face = FaceId::from_number(number);
-      const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
       FaceCascades cascades = empty_cascades();
-      SizeCascade& cascade = *cascades[field_.cascade_of(face)];
-      sources_.uniform_face(face, own.first, [&](const Vector3& p) { add_layer(cascade, p, own); });
+      sources_.uniform_face(face, own.first, adder(cascades, {face}));
       for (const EdgeId id : shape_.edges.ids()) {
-        const CadEdge& edge = shape_.edges[id];
-        if (std::find(edge.faces.begin(), edge.faces.end(), face) == edge.faces.end()) continue;
-        sources_.uniform_edge(id, own.first, [&](const Vector3& p) {
-          for (const int i : field_.cascades_of(edge.faces)) add_layer(*cascades[i], p, own);
-        });
+        const auto& faces = shape_.edges[id].faces;
+        if (std::find(faces.begin(), faces.end(), face) == faces.end()) continue;
+        sources_.uniform_edge(id, own.first, adder(cascades, faces));
       }
       take_layers(cascades, own);
     }
-    for (const auto& [number, sizes] : layers.edges) {
-      const SizeLayers& own = sizes;  // Clang 14 captures no bindings in lambdas
+    for (const auto& [number, own] : layers.edges) {
       FaceCascades cascades = empty_cascades();
       for (const EdgeId id : shape_.edges.ids()) {
         const CadEdge& edge = shape_.edges[id];
-        if (edge.number != number || unsized_.is_layered(id)) continue;
-        sources_.uniform_edge(id, own.first, [&](const Vector3& p) {
-          for (const int i : field_.cascades_of(edge.faces)) add_layer(*cascades[i], p, own);
-        });
+        if (edge.number == number && !is_set(unsized_.layered, id))
+          sources_.uniform_edge(id, own.first, adder(cascades, edge.faces));
       }
       take_layers(cascades, own);
     }
     for (const auto& [number, own] : layers.vertices) {
       const VertexId vertex = VertexId::from_number(number);
       FaceCascades cascades = empty_cascades();
-      for (const int i : cascades_of_vertex(vertex)) add_layer(*cascades[i], shape_.vertices[vertex], own);
+      adder(cascades, faces_of_vertex(vertex))(shape_.vertices[vertex], own.first);
       take_layers(cascades, own);
     }
-  }
-
-  void add_layer(SizeCascade& cascade, const Vector3& p, const SizeLayers& layers) {
-    if (layers.first < limits_.largest) cascade.add(p, layers.first, blocks_);
   }
 
   void take_layers(FaceCascades& cascades, const SizeLayers& layers) {
@@ -299,18 +286,17 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
 
 SizingField SizingField::build(const CadModel& model, const SizingOptions& options, ExecutionContext& context,
                                const UnsizedFeatures& unsized) {
-  auto impl = std::make_shared<Impl>();
   const SizeLimits limits = size_limits(model, options);
-  impl->frame = frame_of(model, options, limits);
-  impl->size_min = limits.least;
-  impl->budget = options.budget;
-  impl->options = options;
-  impl->limits = limits;
-  impl->gridded = unsized.gridded;
+  const auto impl = std::make_shared<Impl>(Impl{frame_of(model, options, limits),
+                                                options,
+                                                limits,
+                                                unsized.gridded,
+                                                {},
+                                                options.gradation == Gradation::surface});
   SizingOptions steady = options;
   steady.growth = impl->frame.growth;
   Builder(model, steady, limits, unsized, *impl, context).run();
-  return SizingField(std::move(impl));
+  return SizingField(impl);
 }
 
 double field_voxel(double size_max, double size, double growth) {
@@ -350,8 +336,7 @@ EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& optio
   if (!(limits.least < limits.size_min)) return result;
   std::vector<std::pair<Bnd_Box, double>> named;  // boxes around what has a size, and the size
   const auto add = [&](const TopoDS_Shape& part, double size) {
-    Bnd_Box box;
-    BRepBndLib::Add(part, box, Standard_False);
+    const Bnd_Box box = box_of(part);
     if (!box.IsVoid()) named.emplace_back(box, size);
   };
   visit_named_sizes(model, options, limits.largest, [&](Named what, int number, double size) {
@@ -368,8 +353,7 @@ EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& optio
     }
   });
   for (const EdgeId id : shape.edges.ids()) {
-    Bnd_Box box;
-    BRepBndLib::Add(shape.edges[id].edge, box, Standard_False);
+    const Bnd_Box box = box_of(shape.edges[id].edge);
     if (box.IsVoid()) continue;
     const auto reaches = [&](double size, double distance) {
       return size + options.growth * distance < limits.size_min;
@@ -403,26 +387,15 @@ double size_of_curvature(const SizingOptions& options, const SizeLimits& limits,
   return std::max(limits.size_min, size);
 }
 
-const Budget& SizingField::budget() const {
-  return impl_->budget;
-}
-
 const Budget& SizingField::Sampler::budget() const {
-  return impl_.budget;
+  return impl_.options.budget;
 }
 
-double SizingField::aspect() const {
-  return impl_->options.aspect;
+const SizingOptions& SizingField::options() const {
+  return impl_->options;
 }
-
-double SizingField::size_max() const {
-  return impl_->frame.size_max;
-}
-double SizingField::size_min() const {
-  return impl_->size_min;
-}
-bool SizingField::has_size_min() const {
-  return impl_->options.size_min > 0;
+const SizeLimits& SizingField::limits() const {
+  return impl_->limits;
 }
 
 std::vector<SizingField::Level> SizingField::levels() const {
@@ -459,7 +432,7 @@ SizingField::Sampler::Sampler(const SizingField& field)
 SizingField::Sampler::Sampler(const SizingField& field, FaceId face)
     : lookups_(std::make_unique<Lookups>()), impl_(*field.impl_) {
   lookups_->all.emplace_back(*impl_.cascades[impl_.cascade_of(face)]);
-  directed_ = !impl_.gridded.empty() && impl_.gridded[face] != 0;
+  directed_ = is_set(impl_.gridded, face);
 }
 
 SizingField::Sampler::Sampler(const SizingField& field, const CadEdge& edge)
@@ -471,9 +444,9 @@ SizingField::Sampler::Sampler(const SizingField& field, const CadEdge& edge)
 SizingField::Sampler::~Sampler() = default;
 
 double SizingField::Sampler::operator()(const Vector3& point) {
-  double size = impl_.frame.size_max;
+  double size = impl_.limits.largest;
   for (SizeCascade::Lookup& lookup : lookups_->all) size = std::min(size, lookup(point));
-  return std::clamp(size, impl_.size_min, impl_.frame.size_max);
+  return std::clamp(size, impl_.limits.least, impl_.limits.largest);
 }
 
 double SizingField::Sampler::bent(double size, double curvature) const {

@@ -39,16 +39,6 @@ struct UnsizedFeatures {
   EdgeFlags divided;  ///< 1 = its prescribed division requests no sizes
   EdgeFlags layered;  ///< 1 = its layers request no sizes
   FaceFlags gridded;  ///< 1 = rows of quads run from side to side: sizes have directions there
-  /// Whether an edge requests no sizes.
-  bool edge(EdgeId id) const { return !edges.empty() && edges[id] != 0; }
-  /// Whether the prescribed division of an edge requests no sizes.
-  bool is_divided(EdgeId id) const { return !divided.empty() && divided[id] != 0; }
-  /// Whether the layers of an edge request no sizes.
-  bool is_layered(EdgeId id) const { return !layered.empty() && layered[id] != 0; }
-  /// Whether a face requests no sizes.
-  bool face(FaceId id) const { return !faces.empty() && faces[id] != 0; }
-  /// Whether rows of quads run from side to side of a face.
-  bool is_gridded(FaceId id) const { return !gridded.empty() && gridded[id] != 0; }
 };
 
 /// The width of the voxels that hold a size in a field whose largest is `size_max`.
@@ -90,10 +80,8 @@ class SizingField {
   /// version. Where faces have their own cascades, the smallest value of all is written.
   void write(const std::filesystem::path& path) const;
 
-  double aspect() const;      ///< SizingOptions::aspect
-  double size_max() const;    ///< millimeters
-  double size_min() const;    ///< millimeters
-  bool has_size_min() const;  ///< whether users gave SizingOptions::size_min
+  const SizingOptions& options() const;  ///< what it was built with
+  const SizeLimits& limits() const;      ///< of all its sizes
 
   /// One level of voxels, summed over all faces.
   struct Level {
@@ -127,7 +115,7 @@ class SizingField {
     /// The same at a point of the surface.
     double across(double size, const FaceSurface& surface, const Vector2& uv) const;
     bool is_directed() const { return directed_; }  ///< whether sizes have directions on the face
-    const Budget& budget() const;                   ///< the field's budget
+    const Budget& budget() const;                   ///< SizingOptions::budget of the field
 
    private:
     struct Lookups;
@@ -135,8 +123,6 @@ class SizingField {
     const Impl& impl_;
     bool directed_ = false;  // the face has sizes with directions
   };
-
-  const Budget& budget() const;  ///< what the field was built with
 
  private:
   explicit SizingField(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}

@@ -91,6 +91,12 @@ struct ByElement {
   bool empty() const { return faces.empty() && edges.empty() && vertices.empty(); }
 };
 
+/// What a map has for a number, or `otherwise`.
+inline double value_or(const std::map<int, double>& values, int number, double otherwise) {
+  const auto found = values.find(number);
+  return found == values.end() ? otherwise : found->second;
+}
+
 /// How sizes grow: only along faces and across their common edges, or also through space.
 enum class Gradation { surface, space };
 

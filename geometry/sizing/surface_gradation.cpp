@@ -2,9 +2,6 @@
 
 #include "geometry/sizing/surface_gradation.hpp"
 
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +10,7 @@
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
@@ -29,8 +27,7 @@ class FaceBand {
     constexpr double off = 0.3;
     // Largest distance of a voxel corner from a plane through the voxel.
     width_ = off + (surface_.planar() ? surface_.normal({0, 0}).lpNorm<1>() : std::sqrt(3.0));
-    Bnd_Box box;
-    BRepBndLib::Add(face.face, box, Standard_False);
+    const Bnd_Box box = box_of(face.face);
     if (box.IsVoid()) return;
     low_ = to_vector(box.CornerMin());
     high_ = to_vector(box.CornerMax());

@@ -217,7 +217,7 @@ class CountProblem {
       wanted += targets_.wanted[i];
       variable.least =
           std::max(variable.least, final_segments ? targets_.least_of_grids[i] : targets_.least[i]);
-      even |= !targets_.even.empty() && targets_.even[i] != 0;
+      even |= is_set(targets_.even, i);
     }
     variable.wanted = parts * (wanted / static_cast<double>(members.size()));
     variable.weight = static_cast<double>(members.size());

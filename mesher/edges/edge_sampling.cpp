@@ -136,7 +136,7 @@ class TargetFinder {
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
       if (plan_.along_chord(i, edge)) wanted *= chord_of(edge) / edge.length;
       segments += stride_ * wanted;
-      hold_segments(segments, field_.budget(), edge);
+      hold_segments(segments, field_.options().budget, edge);
       const double turning = plan_.ignore_curvature[i] ? 0 : demand_.tables[i].turning;
       demand_.targets.least[i] =
           least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
@@ -163,7 +163,7 @@ class TargetFinder {
   /// be below the least.
   double most_at_least_size(EdgeId i, int unit) const {
     constexpr double rounding = 1 + 1e-6;
-    const double room = rounding * shape_.edges[i].length / field_.size_min();
+    const double room = rounding * shape_.edges[i].length / field_.limits().least;
     return demand_.tables[i].total() > room ? std::numeric_limits<double>::infinity()
                                             : std::max(1.0, std::floor(room / unit));
   }
@@ -182,7 +182,7 @@ class TargetFinder {
     // size that users gave goes before it.
     constexpr double nearly = 0.25;
     double of_arc = std::ceil(wanted - nearly);
-    if (field_.has_size_min()) of_arc = std::min(of_arc, most_at_least_size(i, stride_));
+    if (field_.options().size_min > 0) of_arc = std::min(of_arc, most_at_least_size(i, stride_));
     least = std::max(least, to_int(of_arc));
     of_grids = std::max(of_grids, to_int(std::ceil(stride_ * wanted - nearly)));
   }
@@ -503,7 +503,7 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
   free_sides_beside_chains(shape, used, plan.rows, found);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);
-  StripRefiner strips(shape, field.aspect(), field.size_min());
+  StripRefiner strips(shape, field.options().aspect, field.limits().least);
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     const bool refined =

@@ -164,8 +164,7 @@ class RowFinder {
   }
 
   double size_on(EdgeId edge) const {
-    const auto own = options_.edge_sizes.find(shape_.edges[edge].number);
-    return own == options_.edge_sizes.end() ? size_ : std::min(size_, own->second);
+    return std::min(size_, value_or(options_.edge_sizes, shape_.edges[edge].number, size_));
   }
 
   StackedEdge stacked(EdgeId edge, const Stacks& stacks) const {

@@ -2,10 +2,8 @@
 
 #include "mesher/edges/placed_nodes.hpp"
 
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <Bnd_Box.hxx>
 #include <Extrema_ExtPC.hxx>
 #include <Standard_Failure.hxx>
 
@@ -18,6 +16,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_division.hpp"
 
@@ -47,8 +46,7 @@ class Placing {
         tolerance_(place_tolerance_share * size),
         own_vertices_(shape.vertices.size()) {
     for (const FaceId face : used.ids())
-      if (used[face]) faces_.emplace_back(face, Bnd_Box());
-    for (auto& [face, box] : faces_) BRepBndLib::Add(shape.faces[face].face, box, Standard_False);
+      if (used[face]) faces_.emplace_back(face, box_of(shape.faces[face].face));
   }
 
   PlacedNodes run() {

@@ -36,8 +36,7 @@ class SingleSegments {
   bool is_single(EdgeId edge) const { return chosen_.counts[edge] > 0 && single_[chord(edge)] != 0; }
 
   bool may_be_single(EdgeId edge) const {
-    return targets_.least_of_grids[edge] <= 1 && targets_.fixed[edge] == 0 &&
-           (targets_.even.empty() || targets_.even[edge] == 0) &&
+    return targets_.least_of_grids[edge] <= 1 && targets_.fixed[edge] == 0 && !is_set(targets_.even, edge) &&
            targets_.wanted[edge] * targets_.stride <= most_wanted;
   }
 

@@ -264,7 +264,8 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
     keep_face(other, why);
   };
   keep(face);
-  for (const EdgeId id : edges.empty() ? shape_.faces[face].edges() : edges) {
+  for (const EdgeId id : shape_.faces[face].edges()) {
+    if (!edges.empty() && std::find(edges.begin(), edges.end(), id) == edges.end()) continue;
     const CadEdge& edge = shape_.edges[id];
     here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
     for (const FaceId other : edge.faces) keep(other);

@@ -42,7 +42,7 @@ bool twice_as_fine(Case& job) {
   job.record.recipe = {.chart = is_inverted ? job.record.recipe.chart : ChartKind::own,
                        .fineness = 2 * job.record.recipe.fineness,
                        .leaves_surface = job.record.recipe.leaves_surface};
-  for (const EdgeId edge : edges_of(job.shape.faces[job.face]))
+  for (const EdgeId edge : job.shape.faces[job.face].edges())
     plan.factor[edge] = std::max(plan.factor[edge], job.record.recipe.fineness);
   return true;
 }
@@ -128,16 +128,9 @@ constexpr std::array table{
 
 }  // namespace
 
-std::vector<EdgeId> edges_of(const CadFace& face) {
-  std::vector<EdgeId> result;
-  for (const CadWire& wire : face.wires)
-    for (const Coedge& coedge : wire.coedges) result.push_back(coedge.edge);
-  return result;
-}
-
 double longest_edge(const CadShape& shape, FaceId face) {
   double longest = 0;
-  for (const EdgeId edge : edges_of(shape.faces[face])) longest = std::max(longest, shape.edges[edge].length);
+  for (const EdgeId edge : shape.faces[face].edges()) longest = std::max(longest, shape.edges[edge].length);
   return longest;
 }
 

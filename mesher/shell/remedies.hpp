@@ -38,9 +38,6 @@ struct FaceRecord {
   std::optional<FaceProblem> before;      ///< the problem that was treated last
 };
 
-/// The edges of a face, wire by wire; one that it uses twice comes twice.
-std::vector<EdgeId> edges_of(const CadFace& face);
-
 /// The length of a face's longest edge.
 double longest_edge(const CadShape& shape, FaceId face);
 

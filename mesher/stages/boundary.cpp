@@ -33,7 +33,7 @@ std::vector<FaceId> longest_first(const CadShape& shape, const BoundaryNodes& no
   std::vector<FaceId> order;
   for (const FaceId face : segments.ids()) {
     order.push_back(face);
-    for (const EdgeId edge : edges_of(shape.faces[face])) segments[face] += nodes.edges[edge].segments();
+    for (const EdgeId edge : shape.faces[face].edges()) segments[face] += nodes.edges[edge].segments();
   }
   std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return segments[a] > segments[b]; });
   return order;
@@ -75,7 +75,7 @@ class Renumbering {
   /// way.
   bool keeps(const CadShape& shape, FaceId face) const {
     const FacePlan &old = before_.plans[face], &plan = now_.plans[face];
-    const std::vector<EdgeId> edges = edges_of(shape.faces[face]);
+    const std::vector<EdgeId> edges = shape.faces[face].edges();
     return old.stride == plan.stride && old.is_filled == plan.is_filled &&
            std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
              return same_[edge] != 0 &&
@@ -246,7 +246,7 @@ bool undo_remedies(const CadShape& shape, Boundary& boundary, Faces& faces) {
     record.recipe = {};
     record.given_up = false;
     record.before.reset();
-    for (const EdgeId edge : edges_of(shape.faces[face])) of_failed[edge] = 1;
+    for (const EdgeId edge : shape.faces[face].edges()) of_failed[edge] = 1;
   }
   for (const EdgeId edge : of_failed.ids())
     if (of_failed[edge]) boundary.plan.factor[edge] = 1;

@@ -24,7 +24,7 @@ namespace {
 double reach_of(const Prepared& prepared, FaceId face) {
   const CadFace& source = prepared.shape.faces[face];
   double reach = std::max(prepared.limits.size_min, source.tolerance);
-  for (const EdgeId edge : edges_of(source)) reach = std::max(reach, prepared.shape.edges[edge].tolerance);
+  for (const EdgeId edge : source.edges()) reach = std::max(reach, prepared.shape.edges[edge].tolerance);
   return reach;
 }
 

@@ -66,7 +66,7 @@ CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& optio
       if (pair.dimension == 1)
         leave(EdgeId::from_number(number));
       else
-        for (const EdgeId edge : edges_of(source.faces[FaceId::from_number(number)])) leave(edge);
+        for (const EdgeId edge : source.faces[FaceId::from_number(number)].edges()) leave(edge);
     }
   const auto shape = divided_at_slivers(source, used, reach);
   return shape ? CadModel(shape) : model;

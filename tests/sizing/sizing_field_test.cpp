@@ -65,8 +65,8 @@ TEST(SizingField, StaysBetweenItsLimitsAndGrowsNoFasterThanAsked) {
       const Vector3 a = random_point(model, random);
       const Vector3 b = a + options.size * Vector3(step(random), step(random), step(random));
       const double at_a = size_at(a), at_b = size_at(b);
-      EXPECT_GE(at_a, field.size_min());
-      EXPECT_LE(at_a, field.size_max());
+      EXPECT_GE(at_a, field.limits().least);
+      EXPECT_LE(at_a, field.limits().largest);
       // Voxels smear by up to one of their own size, which is about the size itself.
       const double slack = options.growth * 2 * std::max(at_a, at_b);
       EXPECT_LE(std::abs(at_a - at_b), options.growth * (a - b).norm() * 1.1 + slack);
@@ -126,7 +126,7 @@ TEST(SizingField, TakesNoMoreRoomTheSlowerSizesGrow) {
     for (const CadEdge& edge : model.shape().edges) {
       if (edge.degenerate) continue;
       const double size = size_at(EdgeCurve(edge).point(0.5 * (edge.first + edge.last)));
-      EXPECT_LE(size, std::max(edge.length, field.size_min()) * 1.05);
+      EXPECT_LE(size, std::max(edge.length, field.limits().least) * 1.05);
     }
   }
 }
@@ -354,7 +354,7 @@ TEST(EdgeSampling, MakesEveryFaceEvenWithSegmentsOfTheSize) {
         const IdVector<FaceId, int> counts = face_counts(model, nodes);
         for (const FaceId face : counts.ids()) {
           // Only grids go without the stride, and faces with edges that are too short for two segments.
-          const std::vector<EdgeId> around = edges_of(model.shape().faces[face]);
+          const std::vector<EdgeId> around = model.shape().faces[face].edges();
           const bool has_single = std::any_of(around.begin(), around.end(),
                                               [&](EdgeId edge) { return nodes.edges[edge].segments() == 1; });
           const bool is_grid = nodes.plans[face].sides.rest.empty();
