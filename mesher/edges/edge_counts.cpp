@@ -32,19 +32,9 @@ bool has_sums(const FaceSides& sides) {
                      [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
 }
 
-template <class Visit>
-void for_each_edge(const FaceSides& sides, Visit&& visit) {
-  for (const FacingPair& pair : sides.facing) {
-    for (const FaceSide* side : {&pair.first, &pair.second}) {
-      for (const SideEdge& edge : *side) visit(edge.edge);
-    }
-  }
-}
-
-bool is_on(EdgeId edge, const FaceSides& sides) {
-  bool found = std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end();
-  for_each_edge(sides, [&](EdgeId other) { found |= other == edge; });
-  return found;
+bool is_on(EdgeId edge, FaceSides sides) {
+  sides.drop_facing();
+  return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end();
 }
 
 /// Chords with the numbers that users prescribe for them.
@@ -266,7 +256,7 @@ class CountProblem {
     for (const FaceId face : sides_.ids()) {
       const FaceSides& sides = sides_[face];
       const bool is_grid = sides.rest.empty() && sides.is_filled();
-      for_each_edge(sides, [&](EdgeId edge) { is_between_grids_[chords_.chords.of(edge)] &= is_grid; });
+      for (const EdgeId edge : sides.facing_edges()) is_between_grids_[chords_.chords.of(edge)] &= is_grid;
       add_facing(face);
       for (const EdgeId edge : sides.rest) is_between_grids_[chords_.chords.of(edge)] = 0;
       if (sides.rest.empty() || (sides.may_be_odd && targets_.stride == 2)) continue;

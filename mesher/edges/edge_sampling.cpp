@@ -108,13 +108,13 @@ class TargetFinder {
     const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
     const EdgeFlags inner = find_inner_edges(shape_);
     demand_.tables.resize(n_);
-    demand_.targets.stride = stride_;
-    demand_.targets.check = [&context = context_] { context.check(); };
-    demand_.targets.least.assign(n_, 0);
-    demand_.targets.least_of_grids.assign(n_, 0);
-    demand_.targets.wanted.assign(n_, 0);
-    demand_.targets.fixed.assign(n_, 0);
-    demand_.targets.even.assign(n_, 0);
+    targets_.stride = stride_;
+    targets_.check = [&context = context_] { context.check(); };
+    targets_.least.assign(n_, 0);
+    targets_.least_of_grids.assign(n_, 0);
+    targets_.wanted.assign(n_, 0);
+    targets_.fixed.assign(n_, 0);
+    targets_.even.assign(n_, 0);
     double segments = 0;
     for (const EdgeId i : shape_.edges.ids()) {
       if (i.index() % 256 == 0) context_.report(Stage::sample, 0.5 * i.index() / static_cast<double>(n_));
@@ -130,7 +130,7 @@ class TargetFinder {
                                      std::min(part.segments * stride, most_segments(part)));
         is_finer = true;
       }
-      double& wanted = demand_.targets.wanted[i];
+      double& wanted = targets_.wanted[i];
       wanted = std::min(demand_.tables[i].total(), most_at_least_size(i, 1)) / stride_;
       // An edge has at least one segment, which the factor multiplies.
       if (plan_.factor[i] > 1) wanted = std::max(wanted, 1.0) * plan_.factor[i];
@@ -138,18 +138,17 @@ class TargetFinder {
       segments += stride_ * wanted;
       hold_segments(segments, field_.options().budget, edge);
       const double turning = plan_.ignore_curvature[i] ? 0 : demand_.tables[i].turning;
-      demand_.targets.least[i] =
-          least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
+      targets_.least[i] = least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride_);
       // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
-      if (is_finer) demand_.targets.least[i] = std::max(demand_.targets.least[i], to_int(wanted));
+      if (is_finer) targets_.least[i] = std::max(targets_.least[i], to_int(wanted));
       raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
       add_heads(i);
       if (plan_.prescribes(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (stride != stride_) {
-        demand_.targets.even[i] = 1;
-        demand_.targets.least[i] = std::max(
-            demand_.targets.least[i] + demand_.targets.least[i] % 2,
+        targets_.even[i] = 1;
+        targets_.least[i] = std::max(
+            targets_.least[i] + targets_.least[i] % 2,
             stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
@@ -170,8 +169,8 @@ class TargetFinder {
 
   /// Sets the least count between grids, and raises both least counts on arcs.
   void raise_least(EdgeId i, double turning, bool needs_least) {
-    const double wanted = demand_.targets.wanted[i];
-    int &least = demand_.targets.least[i], &of_grids = demand_.targets.least_of_grids[i];
+    const double wanted = targets_.wanted[i];
+    int &least = targets_.least[i], &of_grids = targets_.least_of_grids[i];
     // Between grids, one segment may do for a straight edge, and for a short arc of up to a quarter turn.
     // Other curves keep their shape there as elsewhere.
     constexpr double straight = 1e-3, quarter_turn = 1.6;
@@ -191,18 +190,17 @@ class TargetFinder {
   void share_targets() {
     const auto take = [&](EdgeId to, EdgeId from) {
       const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
-      if (demand_.targets.fixed[to] != 0 && demand_.targets.fixed[from] != 0)
-        return;  // choose_counts() compares them
-      raise(demand_.targets.least);
-      raise(demand_.targets.least_of_grids);
-      raise(demand_.targets.wanted);
-      raise(demand_.targets.fixed);
-      raise(demand_.targets.even);
+      if (targets_.fixed[to] != 0 && targets_.fixed[from] != 0) return;  // choose_counts() compares them
+      raise(targets_.least);
+      raise(targets_.least_of_grids);
+      raise(targets_.wanted);
+      raise(targets_.fixed);
+      raise(targets_.even);
     };
     for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
     for (const MatchedEdge& copy : plan_.matched) {
       take(copy.to, copy.from);
-      demand_.targets.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
+      targets_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
     }
   }
 
@@ -231,9 +229,9 @@ class TargetFinder {
     if (heads == plan_.rows.heads.end()) return;
     const auto [from, to] = counts_between(demand_.tables[i], heads->second);
     const int own = heads->second.segments(), least = own + 1;
-    demand_.targets.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / stride_;
-    demand_.targets.least[i] = std::max(demand_.targets.least[i], (least + stride_ - 1) / stride_);
-    demand_.targets.least_of_grids[i] = std::max(demand_.targets.least_of_grids[i], least);
+    targets_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / stride_;
+    targets_.least[i] = std::max(targets_.least[i], (least + stride_ - 1) / stride_);
+    targets_.least_of_grids[i] = std::max(targets_.least_of_grids[i], least);
   }
 
   /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
@@ -247,10 +245,10 @@ class TargetFinder {
     if (plan_.prescribed[i]->is_fixed() && segments < (needs_stride ? stride_ * least : 1))
       throw usage_error("segments", fmt::format("`segments` gives {} to Edge{}, which needs {} or more",
                                                 segments, shape_.edges[i].number, stride_ * least));
-    if (plan_.prescribed[i]->is_fixed()) demand_.targets.fixed[i] = segments;
-    demand_.targets.wanted[i] = 1.0 * segments / stride_;
-    demand_.targets.least[i] = std::max(1, std::min(demand_.targets.least[i], segments / stride_));
-    demand_.targets.least_of_grids[i] = std::min(demand_.targets.least_of_grids[i], segments);
+    if (plan_.prescribed[i]->is_fixed()) targets_.fixed[i] = segments;
+    targets_.wanted[i] = 1.0 * segments / stride_;
+    targets_.least[i] = std::max(1, std::min(targets_.least[i], segments / stride_));
+    targets_.least_of_grids[i] = std::min(targets_.least_of_grids[i], segments);
   }
 
   const CadShape& shape_;
@@ -261,6 +259,7 @@ class TargetFinder {
   EdgeTables* known_;    // may be null
   const std::size_t n_;  // edges
   EdgeDemand demand_;
+  CountTargets& targets_ = demand_.targets;
 };
 
 /// Faces with rows along chains, and faces at the edges on which rows end, are not treated as grids, which
@@ -280,18 +279,10 @@ void free_sides_beside_chains(const CadShape& shape, const FaceFlags& used, cons
 
 /// The places of an edge's nodes: its heads, and between them by the sizes; none if the heads have no room.
 std::vector<double> shares_with_heads(const CountTable& table, int segments, const EdgeHeads& heads) {
-  const int between = segments - heads.segments();
-  if (between < 1) return {};
-  const auto [from, to] = counts_between(table, heads);
-  std::vector<double> places{0};
-  for (const double length : heads.first) places.push_back(places.back() + length);
-  for (int k = 1; k < between; ++k) places.push_back(table.length_at(from + (to - from) * k / between));
-  places.push_back(table.length() - sum_of(heads.last));
-  for (auto length = heads.last.rbegin(); length != heads.last.rend(); ++length)
-    places.push_back(places.back() + *length);
-  for (double& place : places) place /= table.length();
-  places.back() = 1;
-  return places;
+  const std::pair counts = counts_between(table, heads);
+  return heads.shares(table.length(), segments, [&](int k, int between) {
+    return table.length_at(counts.first + (counts.second - counts.first) * k / between);
+  });
 }
 
 EdgeShares prescribed_shares(const SamplingPlan& plan, const EdgeTables& tables,
@@ -332,10 +323,9 @@ Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const Edg
 }
 
 /// The parameter of node k on a curve that may have loops: where the curve comes nearest to the point that
-/// divides its chord in equal parts. \param before parameters of nodes 0 .. k - 1.
+/// divides its chord in equal parts, between its ends. \param before parameters of nodes 0 .. k - 1.
 double parameter_near_chord(const CadEdge& edge, const EdgeCurve& curve, int k, int segments,
                             const std::vector<double>& before) {
-  if (k == 0 || k == segments) return k == 0 ? edge.first : edge.last;
   constexpr int samples = 256;
   const double share = static_cast<double>(k) / segments;
   const Vector3 target = (1 - share) * curve.point(edge.first) + share * curve.point(edge.last);
@@ -418,11 +408,12 @@ class NodePlacer {
     const int segments = division_.counts.counts[i];
     for (int k = 0; k <= segments; ++k) {
       check();
-      double t = plan_.along_chord(i, edge) ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
-                 : shares.empty()           ? table.parameter_at(table.total() * k / segments)
-                                            : table.parameter_at_length(table.length() * shares[k]);
-      if (k == 0) t = edge.first;
-      if (k == segments) t = edge.last;
+      const double t = k == 0          ? edge.first
+                       : k == segments ? edge.last
+                       : plan_.along_chord(i, edge)
+                           ? parameter_near_chord(edge, curve, k, segments, nodes.parameters)
+                       : shares.empty() ? table.parameter_at(table.total() * k / segments)
+                                        : table.parameter_at_length(table.length() * shares[k]);
       nodes.parameters.push_back(t);
       if (plan_.tiny.edges[i] != i) continue;  // has the nodes of another edge, see borrow_nodes()
       if (k == 0) {

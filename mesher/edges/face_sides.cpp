@@ -185,10 +185,8 @@ class SideFinder {
     const int each = std::max(4, samples / static_cast<int>(side.size()));
     std::vector<Vector3> points;
     for (const SideEdge& part : side) {
-      const CadEdge& edge = shape_.edges[part.edge];
-      const EdgeCurve curve(edge);
-      for (int i = 0; i < each; ++i)
-        points.push_back(curve.point(edge.first + (edge.last - edge.first) * i / each));
+      const std::vector<Vector3> own = quadrille::points_along(shape_.edges[part.edge], each);
+      points.insert(points.end(), own.begin(), own.end() - 1);
     }
     return points;
   }
@@ -258,14 +256,24 @@ class SideFinder {
 
 }  // namespace
 
+FaceSide FacingPair::edges() const {
+  FaceSide result = first;
+  result.insert(result.end(), second.begin(), second.end());
+  return result;
+}
+
+std::vector<EdgeId> FaceSides::facing_edges() const {
+  std::vector<EdgeId> result;
+  for (const FacingPair& pair : facing)
+    for (const SideEdge& edge : pair.edges()) result.push_back(edge.edge);
+  return result;
+}
+
 void FaceSides::drop_facing() {
-  for (const FacingPair& pair : facing) {
-    for (const FaceSide* side : {&pair.first, &pair.second}) {
-      for (const SideEdge& edge : *side) rest.push_back(edge.edge);
-    }
-  }
+  const std::vector<EdgeId> edges = facing_edges();
+  rest.insert(rest.end(), edges.begin(), edges.end());
   facing.clear();
-  drop_grid();
+  kind = GridKind::other;
 }
 
 FaceOutlines find_face_sides(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny,

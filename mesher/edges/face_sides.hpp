@@ -20,6 +20,7 @@ using FaceSide = std::vector<SideEdge>;
 /// Two sides that face each other across a face, both listed in the same direction.
 struct FacingPair {
   FaceSide first, second;
+  FaceSide edges() const;  ///< of both
 };
 
 /// The outlines that grids fill. Only this module, which decides, and face_grid.cpp, which makes the grids,
@@ -56,8 +57,7 @@ struct FaceSides {
   /// Whether holes take the place of cells of its grid.
   bool has_holes() const { return kind == GridKind::holed; }
 
-  /// No grid fills the face: it ends before its corners.
-  void drop_grid() { kind = GridKind::other; }
+  std::vector<EdgeId> facing_edges() const;  ///< of all pairs
   /// Reduces the conditions to an even sum over all edges.
   void drop_facing();
 };

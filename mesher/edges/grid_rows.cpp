@@ -22,20 +22,13 @@ constexpr double largest_row_ratio = 4;
 /// Largest share of a side that layers may take.
 constexpr double most_of_side = 0.9;
 
-/// The heights of layers that start at the ends of an edge, in the direction of its parameter.
-struct Stacks {
-  std::vector<double> first, last;
-};
-
 /// Row heights along an edge: layers from both ends, and sizes between that grow from the layers.
 class StackedEdge {
  public:
-  StackedEdge(double length, const Stacks& stacks, double size, double growth)
-      : length_(length),
-        first_(stacks.first),
-        last_(stacks.last),
-        inner_(length - sum_of(first_) - sum_of(last_)) {
-    const double from = first_.empty() ? size : first_.back(), to = last_.empty() ? size : last_.back();
+  StackedEdge(double length, const EdgeHeads& layers, double size, double growth)
+      : length_(length), layers_(layers), inner_(length - sum_of(layers.first) - sum_of(layers.last)) {
+    const double from = layers.first.empty() ? size : layers.first.back(),
+                 to = layers.last.empty() ? size : layers.last.back();
     counts_.push_back(0);
     for (int i = 0; i < samples; ++i) {
       const double x = inner_ * (i + 0.5) / samples;
@@ -47,31 +40,21 @@ class StackedEdge {
   bool has_room() const { return length_ - inner_ <= most_of_side * length_; }
   /// An even number, so that it suits faces that are not grids too.
   int segments() const {
-    const int wanted = layers() + std::max(1, round_to_int(counts_.back()));
+    const int wanted = layers_.segments() + std::max(1, round_to_int(counts_.back()));
     return wanted + wanted % 2;
   }
-  int layers() const { return static_cast<int>(first_.size() + last_.size()); }
-
+  /// None if there is no room for a segment between the layers.
   std::vector<double> shares(int segments) const {
-    std::vector<double> places{0};
-    for (const double height : first_) places.push_back(places.back() + height);
-    const int between = segments - layers();
-    for (int k = 1; k < between; ++k) {
+    return layers_.shares(length_, segments, [&](int k, int between) {
       const auto [cell, part] = place_in(counts_, counts_.back() * k / between);
-      places.push_back(sum_of(first_) + inner_ * (static_cast<double>(cell) + part) / samples);
-    }
-    places.push_back(length_ - sum_of(last_));
-    for (auto height = last_.rbegin(); height != last_.rend(); ++height)
-      places.push_back(places.back() + *height);
-    for (double& place : places) place /= length_;
-    places.back() = 1;
-    return places;
+      return sum_of(layers_.first) + inner_ * (static_cast<double>(cell) + part) / samples;
+    });
   }
 
  private:
   static constexpr int samples = 256;
   double length_;
-  std::vector<double> first_, last_;
+  EdgeHeads layers_;
   double inner_;                // length between the layers
   std::vector<double> counts_;  // number of segments up to each sample
 };
@@ -88,7 +71,7 @@ class RowFinder {
   }
 
   GridRows run() {
-    std::map<EdgeId, Stacks> stacks;
+    std::map<EdgeId, EdgeHeads> stacks;
     std::vector<std::pair<EdgeId, std::vector<EdgeId>>> layered;
     for (const EdgeId edge : shape_.edges.ids()) {
       const auto found = options_.layers.edges.find(shape_.edges[edge].number);
@@ -116,7 +99,7 @@ class RowFinder {
   /// Records the layers of an edge on the edges that run away from it. \return those edges; nothing if a face
   /// is not four-sided, or if one of those sides has several edges or a prescribed division.
   std::optional<std::vector<EdgeId>> stack(EdgeId id, const SizeLayers& layers,
-                                           std::map<EdgeId, Stacks>& stacks) const {
+                                           std::map<EdgeId, EdgeHeads>& stacks) const {
     const CadEdge& edge = shape_.edges[id];
     std::vector<EdgeId> beside;
     std::vector<std::pair<EdgeId, bool>> found;  // edge, whether the layers start at its first vertex
@@ -167,13 +150,13 @@ class RowFinder {
     return std::min(size_, value_or(options_.edge_sizes, shape_.edges[edge].number, size_));
   }
 
-  StackedEdge stacked(EdgeId edge, const Stacks& stacks) const {
+  StackedEdge stacked(EdgeId edge, const EdgeHeads& stacks) const {
     return {shape_.edges[edge].length, stacks, size_on(edge), options_.growth};
   }
 
   /// Divides an edge with layers. It gets as many segments as the edge with layers in its chord that needs
   /// most, unless one of them has no room.
-  void divide(EdgeId edge, const std::map<EdgeId, Stacks>& stacks,
+  void divide(EdgeId edge, const std::map<EdgeId, EdgeHeads>& stacks,
               std::map<EdgeId, PrescribedEdge>& divided) const {
     int segments = 0;
     for (const EdgeId member : chord_of(edge)) {
@@ -183,8 +166,8 @@ class RowFinder {
       if (!stack.has_room()) return;
       segments = std::max(segments, stack.segments());
     }
-    const StackedEdge own = stacked(edge, stacks.at(edge));
-    if (segments > own.layers()) divided[edge] = {segments, own.shares(segments)};
+    std::vector<double> shares = stacked(edge, stacks.at(edge)).shares(segments);
+    if (!shares.empty()) divided[edge] = {segments, std::move(shares)};
   }
 
   /// The edge opposite another one across a four-sided face or ring; none if there is no single such edge.

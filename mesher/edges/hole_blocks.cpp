@@ -229,9 +229,8 @@ bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const 
     };
     for (const std::size_t k : {0, 1}) {
       if (fit->sides[k] == 1) continue;
-      for (const FaceSide* side : {&sides[i].facing[k].first, &sides[i].facing[k].second}) {
-        for (const SideEdge& edge : *side) want(edge.edge, fit->sides[k] * chosen.counts[edge.edge]);
-      }
+      for (const SideEdge& edge : sides[i].facing[k].edges())
+        want(edge.edge, fit->sides[k] * chosen.counts[edge.edge]);
     }
     for (std::size_t wire = 0; wire < fit->around.size(); ++wire) {
       double length = 0;

@@ -129,8 +129,7 @@ class HoleFinder {
       const CadEdge& edge = shape_.edges[coedge.edge];
       if (stays(edge)) return false;
       length += edge.length;
-      std::vector<Vector3> along = points_along(edge, samples);
-      if (!coedge.forward) std::reverse(along.begin(), along.end());
+      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
       points.insert(points.end(), along.begin(), along.end() - 1);
     }
     if (length > 2 * std::numbers::pi * diameter_) return false;  // of any outline

@@ -29,12 +29,14 @@ int lowest_bit(const Bits& bits) {
   return -1;
 }
 
-/// Solves for the odd faces with the cheapest basis of columns. Faces that cannot be made even stay odd.
-EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd,
-                    const std::function<void()>& check) {
-  struct Row {
-    Bits faces, combination;
-  };
+struct Row {
+  Bits faces, combination;
+};
+
+}  // namespace
+
+EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, const FaceFlags& odd,
+                    std::vector<FaceId>& left_odd, const std::function<void()>& check) {
   std::vector<EdgeId> order;
   for (const EdgeId edge : edges.ids()) {
     if (std::isfinite(edges[edge].cost) && !edges[edge].faces.empty()) order.push_back(edge);
@@ -62,11 +64,10 @@ EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd,
   for (const FaceId face : odd.ids()) {
     if (odd[face]) flip(target.faces, face.index());
   }
-  std::fill(odd.begin(), odd.end(), 0);
   for (int bit = lowest_bit(target.faces); bit >= 0; bit = lowest_bit(target.faces)) {
     const auto it = basis.find(bit);
     if (it == basis.end()) {
-      odd[FaceId::from_index(bit)] = 1;
+      left_odd.push_back(FaceId::from_index(bit));
       flip(target.faces, bit);
       continue;
     }
@@ -76,17 +77,6 @@ EdgeFlags eliminate(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags& odd,
   EdgeFlags change(edges.size());
   for (const EdgeId edge : edges.ids())
     change[edge] = target.combination[edge.index() / 64] >> (edge.index() % 64) & 1;
-  return change;
-}
-
-}  // namespace
-
-EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd,
-                    const std::function<void()>& check) {
-  EdgeFlags change = eliminate(edges, odd, check);
-  for (const FaceId face : odd.ids()) {
-    if (odd[face]) left_odd.push_back(face);
-  }
   return change;
 }
 

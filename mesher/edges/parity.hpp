@@ -19,7 +19,7 @@ struct ParityEdge {
 /// added to `left_odd`. Time: edges x faces squared at worst. \param check called once for each edge; may
 /// throw \return 1 = change the edge's count.
 EdgeFlags make_even(
-    const IdVector<EdgeId, ParityEdge>& edges, FaceFlags odd, std::vector<FaceId>& left_odd,
+    const IdVector<EdgeId, ParityEdge>& edges, const FaceFlags& odd, std::vector<FaceId>& left_odd,
     const std::function<void()>& check = [] {});
 
 }  // namespace quadrille

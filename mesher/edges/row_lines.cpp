@@ -24,6 +24,20 @@ std::vector<double> heights_of(const SizeLayers& layers) {
   return heights;
 }
 
+std::vector<double> EdgeHeads::shares(double length, int segments,
+                                      const std::function<double(int k, int between)>& place_of) const {
+  const int between = segments - this->segments();
+  if (between < 1) return {};
+  std::vector<double> places{0};
+  for (const double head : first) places.push_back(places.back() + head);
+  for (int k = 1; k < between; ++k) places.push_back(place_of(k, between));
+  places.push_back(length - sum_of(last));
+  for (auto head = last.rbegin(); head != last.rend(); ++head) places.push_back(places.back() + *head);
+  for (double& place : places) place /= length;
+  places.back() = 1;
+  return places;
+}
+
 bool has_chain(const RowLinesOfFaces& lines, FaceId face) {
   const auto own = lines.find(face);
   return own != lines.end() && std::any_of(own->second.begin(), own->second.end(),

@@ -2,6 +2,7 @@
 /// Lines of edges along which faces that are not grids get rows of given heights. Internal.
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ bool has_chain(const RowLinesOfFaces& lines, FaceId face);
 struct EdgeHeads {
   std::vector<double> first, last;
   int segments() const { return static_cast<int>(first.size() + last.size()); }
+  /// The places of an edge's nodes as shares of its length; none if the heads leave no segment between them.
+  /// \param place_of gives the place of the k-th node of so many segments between the heads
+  std::vector<double> shares(double length, int segments,
+                             const std::function<double(int k, int between)>& place_of) const;
 };
 
 struct RowLines {

@@ -24,22 +24,17 @@ namespace {
 constexpr std::size_t most_edges = 40;
 
 /// A long edge of a face, with samples in the direction of the wire.
-struct LongEdge {
+struct LongEdge : CurveSamples {
   EdgeId edge;
   bool forward = true;
   VertexId from, to;       // vertices, in the direction of the wire
   int start = 0, end = 0;  // junctions
-  std::vector<double> parameters;
-  std::vector<Vector3> points;
-  double slack = 0;  // how far the curve may be from the line through the samples
+  double slack = 0;        // how far the curve may be from the line through the samples
 };
 
 /// The place of a chain that is nearest to a point.
-struct Nearest {
-  double distance = std::numeric_limits<double>::infinity();
-  std::size_t edge = 0;  // index in the chain
-  double parameter = 0;
-  Vector3 point{0, 0, 0};
+struct Nearest : CurvePlace {
+  int edge = 0;  // index of the long edge
 };
 
 /// Finds faces that lie along their seams.
@@ -85,12 +80,7 @@ struct TubeFinder {
   /// Whether a face stays within the width of an edge, at samples all over it.
   bool lies_along(const CadFace& face, const CadEdge& edge) const {
     constexpr int places = 32, samples = 8;
-    const EdgeCurve curve(edge);
-    std::vector<Vector3> on_edge;
-    for (int i = 0; i <= places * samples; ++i) {
-      const double share = static_cast<double>(i) / (places * samples);
-      on_edge.push_back(curve.point(edge.first + share * (edge.last - edge.first)));
-    }
+    const std::vector<Vector3> on_edge = points_along(edge, places * samples);
     const double spacing = edge.length / (places * samples);
     const FaceSurface surface(face);
     const auto is_near = [&](const Vector3& point) {
@@ -208,16 +198,9 @@ class SliverFinder {
 
   Nearest nearest(const Vector3& p, const std::vector<int>& chain) const {
     Nearest result;
-    for (std::size_t at = 0; at < chain.size(); ++at) {
-      const LongEdge& edge = edges_[chain[at]];
-      for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-        const double t = nearest_share(edge.points[i], edge.points[i + 1], p);
-        const Vector3 point = edge.points[i] + t * (edge.points[i + 1] - edge.points[i]);
-        const double distance = (p - point).norm();
-        if (distance >= result.distance) continue;
-        result = {distance, at, edge.parameters[i] + t * (edge.parameters[i + 1] - edge.parameters[i]),
-                  point};
-      }
+    for (const int i : chain) {
+      const CurvePlace place = edges_[i].nearest(p);
+      if (place.distance < result.distance) result = {place, i};
     }
     return result;
   }
@@ -283,7 +266,7 @@ class SliverFinder {
       const Vector3& p = edges_[i].points.front();
       const Nearest place = nearest(p, other);
       if (!(place.distance < width_)) return false;
-      const LongEdge& edge = edges_[other[place.edge]];
+      const LongEdge& edge = edges_[place.edge];
       const double to_start = (edge.points.front() - place.point).norm(),
                    to_end = (edge.points.back() - place.point).norm();
       if (std::min(to_start, to_end) < width_) {
@@ -357,38 +340,51 @@ std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<EdgeC
   return result;
 }
 
-}  // namespace
-
-std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width) {
+/// The slivers of all faces. \param cuts gets the places that have to be divided first
+std::vector<Sliver> find_slivers_and_cuts(const CadShape& shape, const FaceFlags& used, double width,
+                                          std::vector<EdgeCut>& cuts) {
   std::vector<Sliver> result;
   if (!(width > 0)) return result;
   EdgeEnds taken;
   for (const FaceId face : used.ids()) {
-    std::vector<EdgeCut> cuts;
+    std::vector<EdgeCut> own;
     if (!used[face]) continue;
-    for (Sliver& sliver : find_slivers_of(shape, used, width, face, taken, cuts))
+    for (Sliver& sliver : find_slivers_of(shape, used, width, face, taken, own))
       result.push_back(std::move(sliver));
+    cuts.insert(cuts.end(), own.begin(), own.end());
   }
   return result;
+}
+
+}  // namespace
+
+CurvePlace CurveSamples::nearest(const Vector3& p) const {
+  CurvePlace result;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double t = nearest_share(points[i], points[i + 1], p);
+    const Vector3 point = points[i] + t * (points[i + 1] - points[i]);
+    const double distance = (p - point).norm();
+    if (distance < result.distance)
+      result = {distance, parameters[i] + t * (parameters[i + 1] - parameters[i]), point};
+  }
+  return result;
+}
+
+std::vector<Sliver> find_slivers(const CadShape& shape, const FaceFlags& used, double width) {
+  std::vector<EdgeCut> cuts;
+  return find_slivers_and_cuts(shape, used, width, cuts);
 }
 
 std::shared_ptr<const CadShape> divided_at_slivers(const CadShape& shape, const FaceFlags& used,
                                                    double width) {
   constexpr int most_passes = 6;  // a cut passes from sliver to sliver
   std::shared_ptr<const CadShape> result;
-  if (!(width > 0)) return result;
   for (int pass = 0; pass < most_passes; ++pass) {
     const CadShape& now = result ? *result : shape;
-    std::vector<EdgeCut> all;
-    EdgeEnds taken;
-    for (const FaceId face : used.ids()) {
-      std::vector<EdgeCut> cuts;
-      if (!used[face]) continue;
-      find_slivers_of(now, used, width, face, taken, cuts);
-      all.insert(all.end(), cuts.begin(), cuts.end());
-    }
-    if (all.empty()) break;
-    result = divided(now, std::move(all), width);
+    std::vector<EdgeCut> cuts;
+    find_slivers_and_cuts(now, used, width, cuts);
+    if (cuts.empty()) break;
+    result = divided(now, std::move(cuts), width);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 /// Faces so narrow that they become edges, whatever the number of their own edges. Internal.
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -12,6 +13,21 @@ namespace quadrille {
 /// Slivers and spikes are at least this many times as long as they are wide: between straight edges, an angle
 /// of 23 degrees.
 constexpr double least_slenderness = 2.5;
+
+/// A place on a curve, and its distance from a point.
+struct CurvePlace {
+  double distance = std::numeric_limits<double>::infinity();
+  double parameter = 0;
+  Vector3 point{0, 0, 0};
+};
+
+/// A curve as a polyline.
+struct CurveSamples {
+  std::vector<double> parameters;
+  std::vector<Vector3> points;
+
+  CurvePlace nearest(const Vector3& point) const;
+};
 
 /// A place on an edge where it is to be divided.
 struct EdgeCut {

@@ -4,13 +4,11 @@
 #include "mesher/edges/spikes.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/tiny_features.hpp"
@@ -23,42 +21,22 @@ namespace {
 constexpr double least_cosine = 0.85;
 
 /// An edge from the corner to its other end, in samples that get sparser.
-struct Arm {
+struct Arm : CurveSamples {
   EdgeCurve curve;
-  std::vector<double> parameters;
-  std::vector<Vector3> points;
 };
-
-struct Place {
-  double distance = std::numeric_limits<double>::infinity();
-  double parameter = 0;
-  Vector3 point{0, 0, 0};
-};
-
-Place nearest_on(const Arm& arm, const Vector3& p) {
-  Place result;
-  for (std::size_t i = 0; i + 1 < arm.points.size(); ++i) {
-    const double t = nearest_share(arm.points[i], arm.points[i + 1], p);
-    const Vector3 point = arm.points[i] + t * (arm.points[i + 1] - arm.points[i]);
-    const double distance = (p - point).norm();
-    if (distance < result.distance)
-      result = {distance, arm.parameters[i] + t * (arm.parameters[i + 1] - arm.parameters[i]), point};
-  }
-  return result;
-}
 
 /// The place on an arm where the other one is first as far away as the limit; none if it is nowhere.
-std::optional<Place> limit_reached(const Arm& arm, const Arm& other, double limit) {
+std::optional<CurvePlace> limit_reached(const Arm& arm, const Arm& other, double limit) {
   std::size_t i = 1;
-  while (i < arm.points.size() && nearest_on(other, arm.points[i]).distance < limit) ++i;
+  while (i < arm.points.size() && other.nearest(arm.points[i]).distance < limit) ++i;
   if (i >= arm.points.size()) return std::nullopt;
   double low = arm.parameters[i - 1], high = arm.parameters[i];
   constexpr int halvings = 12;
   for (int k = 0; k < halvings; ++k) {
     const double middle = 0.5 * (low + high);
-    (nearest_on(other, arm.curve.point(middle)).distance < limit ? low : high) = middle;
+    (other.nearest(arm.curve.point(middle)).distance < limit ? low : high) = middle;
   }
-  return Place{limit, low, arm.curve.point(low)};
+  return CurvePlace{limit, low, arm.curve.point(low)};
 }
 
 bool lie_together(const Arm& one, const Arm& other, double limit) {
@@ -135,16 +113,17 @@ class SpikeFinder {
     // Once divided there, the edges are closer than the width from end to end.
     constexpr double below = 0.9;
     const double limit = std::min(below * width_, narrow);
-    const std::optional<Place> end = limit_reached(one, two, limit), other = limit_reached(two, one, limit);
-    const Place facing = nearest_on(two, end ? end->point : last);
+    const std::optional<CurvePlace> end = limit_reached(one, two, limit),
+                                    other = limit_reached(two, one, limit);
+    const CurvePlace facing = two.nearest(end ? end->point : last);
     if (!lies_between(before, end ? end->parameter : one.parameters.back(), one.curve, facing.point))
       return false;
-    const auto may_cut = [&](const Arm& arm, const Place& place) {
+    const auto may_cut = [&](const Arm& arm, const CurvePlace& place) {
       return (place.point - arm.points.front()).norm() > least_slenderness * limit &&
              (place.point - arm.points.back()).norm() > width_;
     };
     // An edge that stays close to the other one up to its end stays whole.
-    const Place place = end && !other ? nearest_on(one, other_last) : end.value_or(Place());
+    const CurvePlace place = end && !other ? one.nearest(other_last) : end.value_or(CurvePlace());
     if ((end && !may_cut(one, place)) || ((other || !end) && !may_cut(two, facing))) return false;
     if (end) cuts_.push_back({before.edge, place.parameter, place.point});
     if (other || !end) cuts_.push_back({after.edge, facing.parameter, facing.point});
@@ -153,7 +132,7 @@ class SpikeFinder {
 
   Arm arm_of(const CadEdge& edge, bool from_start, EdgeCurve curve) const {
     constexpr double finer = 0.1, growth = 1.15;
-    Arm arm{std::move(curve), {}, {}};
+    Arm arm{{}, std::move(curve)};
     const double range = (edge.last - edge.first) / edge.length;
     const auto add = [&](double s) {
       arm.parameters.push_back(from_start ? edge.first + s * range : edge.last - s * range);

@@ -52,8 +52,7 @@ StripRefiner::Waist StripRefiner::waist_between(std::span<const FacingPair> alon
     for (const FaceSide* side : {&pair.first, &pair.second})
       for (const SideEdge& edge : *side) {
         const int pieces = std::max(1, pieces_of_side / static_cast<int>(along.size() * side->size()));
-        std::vector<Vector3> points = points_along(shape_.edges[edge.edge], pieces);
-        if (!edge.forward) std::ranges::reverse(points);
+        const std::vector<Vector3> points = points_along(shape_.edges[edge.edge], pieces, edge.forward);
         std::vector<Vector3>& all = sides[side == &pair.first ? 0 : 1];
         all.insert(all.end(), points.begin(), points.end());
       }
@@ -82,16 +81,15 @@ bool StripRefiner::refine(const FaceOutlines& sides, const EdgeCounts& chosen, c
   const auto widths = [&](std::span<const FacingPair> pairs) {
     RowWidths result;
     for (const FacingPair& pair : pairs) {
-      for (const FaceSide* side : {&pair.first, &pair.second})
-        for (const SideEdge& edge : *side) {
-          const double length = shape_.edges[edge.edge].length;
-          result.length += 0.5 * length;
-          const EdgeId chord = chosen.chords.of(edge.edge);
-          result.divided |= spacing.divided[chord] || spacing.kept[chord];
-          result.narrowest =
-              std::min(result.narrowest, shortest_segment(length, spacing.shares[edge.edge],
-                                                          tables[edge.edge], chosen.counts[edge.edge]));
-        }
+      for (const SideEdge& edge : pair.edges()) {
+        const double length = shape_.edges[edge.edge].length;
+        result.length += 0.5 * length;
+        const EdgeId chord = chosen.chords.of(edge.edge);
+        result.divided |= spacing.divided[chord] || spacing.kept[chord];
+        result.narrowest = std::min(
+            result.narrowest,
+            shortest_segment(length, spacing.shares[edge.edge], tables[edge.edge], chosen.counts[edge.edge]));
+      }
       for (const SideEdge& edge : pair.first) result.rows += chosen.counts[edge.edge];
     }
     return result;
@@ -112,13 +110,12 @@ bool StripRefiner::refine(const FaceOutlines& sides, const EdgeCounts& chosen, c
       const double at_most = std::max(in_narrowest * aspect_ * across.least(), shortest_);
       const double longest = std::max(aspect_ * across.mean(), shortest_);
       for (const FacingPair& pair : ways[k])
-        for (const FaceSide* side : {&pair.first, &pair.second})
-          for (const SideEdge& edge : *side) {
-            const EdgeId chord = chosen.chords.of(edge.edge);
-            const double length = shape_.edges[edge.edge].length;
-            wanted[chord] = std::max(wanted[chord], length / longest);
-            least[chord] = std::max(least[chord], std::ceil(length / at_most));
-          }
+        for (const SideEdge& edge : pair.edges()) {
+          const EdgeId chord = chosen.chords.of(edge.edge);
+          const double length = shape_.edges[edge.edge].length;
+          wanted[chord] = std::max(wanted[chord], length / longest);
+          least[chord] = std::max(least[chord], std::ceil(length / at_most));
+        }
     }
   }
   bool any = false;

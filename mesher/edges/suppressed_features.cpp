@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {
@@ -77,7 +76,7 @@ class HarmFinder {
       length += left.back()->length;
     }
     return left.empty() || length < least * reach_ ||
-           (left.size() == 2 && lies_along(*left[0], *left[1], least * reach_));
+           (left.size() == 2 && distance_between(*left[0], *left[1]) < least * reach_);
   }
 
   /// Whether a loop with free edges that would lose others is hardly wider than these may be long.
@@ -95,11 +94,8 @@ class HarmFinder {
     double length = 0;
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge];
-      const EdgeCurve curve(edge);
-      for (int i = 0; i < samples; ++i) {
-        const double share = static_cast<double>(coedge.forward ? i : samples - i) / samples;
-        loop.push_back(curve.point(edge.first + share * (edge.last - edge.first)));
-      }
+      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
+      loop.insert(loop.end(), along.begin(), along.end() - 1);
       length += edge.length;
     }
     return vector_area(loop).norm() < 0.5 * length * hardly * reach_;
@@ -244,7 +240,7 @@ bool SuppressedFeatures::keep_harmed() {
   for (const EdgeId edge : edges_.ids()) {
     const EdgeId lender = tiny.edges[edge];
     if (lender != edge && !tiny.collapsed_edges[edge] &&
-        !lies_along(shape_.edges[edge], shape_.edges[lender], reach_))
+        !(distance_between(shape_.edges[edge], shape_.edges[lender]) < reach_))
       keep_slivers_at(edge, "its long sides are not everywhere close together");
   }
   return any;

@@ -114,20 +114,16 @@ class Finder {
                        tiny_.end(a.last_vertex) == tiny_.end(b.last_vertex);
     const bool against = tiny_.end(a.first_vertex) == tiny_.end(b.last_vertex) &&
                          tiny_.end(a.last_vertex) == tiny_.end(b.first_vertex);
-    if (!(along || against) || !lies_along(a, b, length_) || keep_apart(left[0], left[1])) return;
+    if (!(along || against) || !(distance_between(a, b) < length_) || keep_apart(left[0], left[1])) return;
     // Either direction fits the ends of two closed edges: the distances of points decide.
     const bool reversed = along && against ? !runs_along(a, b) : against;
     tiny_.merged_faces[face] = 1;
     share(left[0], left[1], reversed);
   }
 
-  static Vector3 at(const CadEdge& edge, double t) {
-    return EdgeCurve(edge).point(edge.first + t * (edge.last - edge.first));
-  }
-
   static bool runs_along(const CadEdge& a, const CadEdge& b) {
-    const Vector3 p = at(a, 0.25);
-    return (p - at(b, 0.25)).norm() < (p - at(b, 0.75)).norm();
+    const std::vector<Vector3> quarters = points_along(a, 4), others = points_along(b, 4);
+    return (quarters[1] - others[1]).norm() < (quarters[1] - others[3]).norm();
   }
 
   /// Replaces chains of merged edges by the edge that keeps its nodes.
@@ -221,11 +217,12 @@ bool is_small(const CadEdge& edge, double reach) {
   return true;
 }
 
-std::vector<Vector3> points_along(const CadEdge& edge, int pieces) {
+std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward) {
   const EdgeCurve curve(edge);
   std::vector<Vector3> points;
   for (int i = 0; i <= pieces; ++i)
     points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / pieces)));
+  if (!forward) std::reverse(points.begin(), points.end());
   return points;
 }
 
@@ -242,10 +239,6 @@ double distance_between(const CadEdge& edge, const CadEdge& other) {
     farthest = std::max(farthest, nearest);
   }
   return farthest;
-}
-
-bool lies_along(const CadEdge& edge, const CadEdge& other, double reach) {
-  return distance_between(edge, other) < reach;
 }
 
 TinyFeatures find_tiny_features(const CadShape& shape, const FaceFlags& used, const EdgeFlags& collapse,

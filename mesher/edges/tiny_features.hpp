@@ -48,14 +48,12 @@ struct SliverChoice {
 /// \param used 1 = the face is meshed
 IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny);
 
-/// Points on an edge at even steps of its parameter, both ends included. \param pieces steps
-std::vector<Vector3> points_along(const CadEdge& edge, int pieces);
+/// Points on an edge at even steps of its parameter, both ends included. \param pieces steps \param forward
+/// whether they begin at the edge's start
+std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward = true);
 
 /// The farthest that an edge's curve lies from another one's, at samples between its ends.
 double distance_between(const CadEdge& edge, const CadEdge& other);
-
-/// Whether an edge's curve stays within `reach` of another one's, at samples between its ends.
-bool lies_along(const CadEdge& edge, const CadEdge& other, double reach);
 
 /// Whether all points of an edge lie within `reach` of each other, by samples.
 bool is_small(const CadEdge& edge, double reach);
