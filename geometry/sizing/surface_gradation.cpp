@@ -3,7 +3,6 @@
 #include "geometry/sizing/surface_gradation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>

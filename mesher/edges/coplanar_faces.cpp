@@ -290,15 +290,13 @@ class CoplanarFaces {
 /// Makes one face of several.
 class FaceJoiner {
  public:
-  FaceJoiner(const CadShape& shape, std::vector<FaceId> members)
-      : shape_(shape), members_(std::move(members)) {
+  FaceJoiner(const CadShape& shape, const std::vector<FaceId>& members) : shape_(shape), members_(members) {
     std::map<EdgeId, int> uses;
     for_each_coedge([&](const CadFace&, const Coedge& coedge) { ++uses[coedge.edge]; });
     for (const auto& [edge, count] : uses)
       if (count == 2) inner_.push_back(edge);
   }
 
-  const std::vector<FaceId>& members() const { return members_; }
   const std::vector<EdgeId>& inner() const { return inner_; }
 
   /// The face with the outline of all. Nothing if the outline touches itself.
@@ -358,21 +356,22 @@ class FaceJoiner {
   }
 
   const CadShape& shape_;
-  std::vector<FaceId> members_;
+  const std::vector<FaceId>& members_;
   std::vector<EdgeId> inner_;  // ascending
 };
 
-/// Puts the joined face in the place of the first.
-void replace(CadShape& shape, const FaceJoiner& joiner, CadFace face, SimplifiedModel& model) {
+/// Puts the joined face in the place of the first. \param inner edges between the members
+void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vector<EdgeId>& inner,
+             CadFace face, SimplifiedModel& model) {
   constexpr int pieces = 32;
-  const FaceId first = joiner.members().front();
-  for (const EdgeId id : joiner.inner()) {
+  const FaceId first = members.front();
+  for (const EdgeId id : inner) {
     CadEdge& edge = shape.edges[id];
     model.inner.push_back(
         {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)});
     edge.faces.clear();
   }
-  for (const FaceId member : joiner.members()) {
+  for (const FaceId member : members) {
     if (member == first) continue;
     model.gone[member] = 1;
     model.taken_by[member] = first;
@@ -398,13 +397,13 @@ void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const Si
   for (const FaceId face : taken.ids()) {
     if (taken[face]) continue;
     const auto group = faces.around(face, taken);
+    if (group.members.size() < 2) continue;
+    for (const FaceId member : group.members) taken[member] = 1;
     const FaceJoiner joiner(before, group.members);
-    if (joiner.members().size() < 2) continue;
-    for (const FaceId member : joiner.members()) taken[member] = 1;
     std::optional<CadFace> whole = joiner.face();
     if (!whole) continue;
     if (!after) after = std::make_shared<CadShape>(before);
-    replace(*after, joiner, std::move(*whole), model);
+    replace(*after, group.members, joiner.inner(), std::move(*whole), model);
     of_facets[face] = group.bulge > 0;
     model.bulge[face] = group.bulge;
   }

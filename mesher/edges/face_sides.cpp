@@ -211,12 +211,6 @@ class SideFinder {
     return ends;
   }
 
-  double length_of(const FaceSide& side) const {
-    return std::accumulate(side.begin(), side.end(), 0.0, [&](double sum, const SideEdge& edge) {
-      return sum + shape_.edges[edge.edge].length;
-    });
-  }
-
   double wanted_of(const FaceSide& side) const {
     return std::accumulate(side.begin(), side.end(), 0.0,
                            [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });

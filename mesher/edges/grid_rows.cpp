@@ -3,7 +3,6 @@
 #include "mesher/edges/grid_rows.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>

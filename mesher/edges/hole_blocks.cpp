@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "geometry/base/whole_number.hpp"
-#include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 
 namespace quadrille {

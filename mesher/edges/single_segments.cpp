@@ -2,7 +2,6 @@
 
 #include "mesher/edges/single_segments.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include "mesher/edges/parity.hpp"

@@ -4,7 +4,6 @@
 #include "mesher/edges/suppressed_features.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 

@@ -28,7 +28,9 @@ class Finder {
       const CadEdge& edge = shape_.edges[id];
       if (edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists() || !(edge.length > 0))
         continue;
-      if (edge.length < length_ || collapse[id]) make_point(id);
+      if (!(edge.length < length_) && !collapse[id]) continue;
+      tiny_.collapsed_edges[id] = 1;
+      join(edge.first_vertex, edge.last_vertex);
     }
     if (slivers_.slivers != nullptr) {
       for (const Sliver& sliver : *slivers_.slivers) zip(sliver);
@@ -42,12 +44,6 @@ class Finder {
   }
 
  private:
-  void make_point(EdgeId id) {
-    const CadEdge& edge = shape_.edges[id];
-    tiny_.collapsed_edges[id] = 1;
-    join(edge.first_vertex, edge.last_vertex);
-  }
-
   void join(VertexId first, VertexId second) {
     const VertexId a = tiny_.vertices[first], b = tiny_.vertices[second];
     if (a != b) std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
