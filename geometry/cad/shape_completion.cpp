@@ -217,16 +217,19 @@ CadFace with_new_curves(const CadFace& face) {
 TopoDS_Face without_idle_wires(const TopoDS_Face& face) {
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   int wires = 0;
-  TopTools_MapOfShape idle, open;
+  TopTools_MapOfShape idle;
+  std::vector<TopoDS_Shape> open;
   for (TopoDS_Iterator it(forward); it.More(); it.Next()) {
     if (it.Value().ShapeType() != TopAbs_WIRE) continue;
     ++wires;
     if (!runs_there_and_back(TopoDS::Wire(it.Value()), forward)) continue;
     idle.Add(it.Value());
-    if (has_loose_end(it.Value())) open.Add(it.Value());
+    if (has_loose_end(it.Value())) open.push_back(it.Value());
   }
   if (idle.IsEmpty() || !has_no_border(BRep_Tool::Surface(forward))) return face;
-  if (idle.Extent() < wires) idle.Subtract(open);  // a slit in a face that the other wires bound
+  if (idle.Extent() < wires) {
+    for (const TopoDS_Shape& slit : open) idle.Remove(slit);  // in a face that the other wires bound
+  }
   if (idle.IsEmpty()) return face;
   const BRep_Builder builder;
   TopoDS_Face result = TopoDS::Face(forward.EmptyCopied());

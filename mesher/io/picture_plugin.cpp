@@ -123,7 +123,7 @@ std::string draw(const ShellMesh& mesh, const std::vector<double>& qualities, in
   legend->SetViewport(picture_share, 0, 1, 1);
   const double scale = parallel_scale(view, picture_share * width / height);
   add_actors(mesh, qualities, scale / height, std::max(1.0, height / 600.0), colors, scene);
-  legend->AddActor2D(color_bar(colors, {"q", "%.1f", 6}, 2 * height));
+  legend->AddViewProp(color_bar(colors, {"q", "%.1f", 6}, 2 * height));
   aim_camera(view, scale, scene);
   return rendered({scene, legend}, width, height);
 }

@@ -151,8 +151,8 @@ std::string draw_sizes(const SizeMap& map, int width, int height) {
   scale_of_sizes->SetPosition(0.1, 0.1);
   scale_of_sizes->SetWidth(0.8);
   scale_of_sizes->SetHeight(0.7);
-  bar->AddActor2D(scale_of_sizes);
-  legend->AddActor2D(legend_of(map));
+  bar->AddViewProp(scale_of_sizes);
+  legend->AddViewProp(legend_of(map));
   return rendered({sizes, sources, bar, legend}, width, height);
 }
 

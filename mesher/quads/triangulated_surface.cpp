@@ -38,7 +38,7 @@ TriangulatedSurface::TriangulatedSurface(TriangleMesh patch)
   for (Vector3& normal : normals_) normal.normalize();
 }
 
-TriangulatedSurface::Nearest TriangulatedSurface::nearest(int triangle, const Vector3& target) const {
+TriangulatedSurface::Nearest TriangulatedSurface::nearest_on(int triangle, const Vector3& target) const {
   const auto& corners = triangles_[triangle];
   const Vector3 &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
   const Vector3 ab = b - a, ac = c - a, ap = target - a;
@@ -75,7 +75,7 @@ Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& n
   // A few steps may come no closer while the walk turns around a point.
   constexpr int max_steps = 200, max_idle = 4;
   int at = static_cast<int>(uv.x()), best = at, came_from = -1;
-  Nearest found = nearest(at, target), here = found;
+  Nearest found = nearest_on(at, target), here = found;
   for (int step = 0, idle = 0; step < max_steps && idle < max_idle; ++step) {
     if (here.weights.minCoeff() > 0) break;
     int next = -1;
@@ -84,7 +84,7 @@ Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& n
       // Only sides that the nearest point lies on lead closer.
       const Side twin = twins_[at][i];
       if (here.weights[previous_index(i)] > 0 || twin < 0 || triangle_of(twin) == came_from) continue;
-      const Nearest candidate = nearest(triangle_of(twin), target);
+      const Nearest candidate = nearest_on(triangle_of(twin), target);
       if (next >= 0 && candidate.squared_distance >= there.squared_distance) continue;
       next = triangle_of(twin);
       there = candidate;

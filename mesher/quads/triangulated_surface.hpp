@@ -33,7 +33,7 @@ class TriangulatedSurface : public MeshSurface {
     Vector3 weights;  // barycentric
   };
 
-  Nearest nearest(int triangle, const Vector3& target) const;
+  Nearest nearest_on(int triangle, const Vector3& target) const;
 
   std::vector<Vector3> points_;
   std::vector<std::array<int, 3>> triangles_;

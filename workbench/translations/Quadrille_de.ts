@@ -1144,8 +1144,8 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Es gibt keine Analyse. Eine anlegen, mit CalculiX als Löser, Spannungen an den Oberflächen und Stahl als Material (im Baum zu ändern)?</translation>
     </message>
     <message>
-        <source>{}: needs an analysis with one solver object CalculiX (ccx tools)</source>
-        <translation>{}: braucht eine Analyse mit einem Löser-Objekt CalculiX (ccx tools)</translation>
+        <source>{}: needs an analysis with one CalculiX solver</source>
+        <translation>{}: braucht eine Analyse mit einem CalculiX-Löser</translation>
     </message>
     <message>
         <source>CalculiX is not installed</source>

@@ -1144,8 +1144,8 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Il n’y a pas d’analyse. En créer une, avec CalculiX comme solveur, les contraintes aux surfaces et l’acier comme matériau (à modifier dans l’arborescence) ?</translation>
     </message>
     <message>
-        <source>{}: needs an analysis with one solver object CalculiX (ccx tools)</source>
-        <translation>{} : nécessite une analyse avec un seul objet solveur CalculiX (ccx tools)</translation>
+        <source>{}: needs an analysis with one CalculiX solver</source>
+        <translation>{} : nécessite une analyse avec un seul solveur CalculiX</translation>
     </message>
     <message>
         <source>CalculiX is not installed</source>

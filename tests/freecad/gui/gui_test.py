@@ -27,7 +27,7 @@ from case import MODELS, GuiCase, picture, run, type_size
 from driver import Boxes, Heartbeat, cancel_bars, click_at, close_panel, find, process, trigger, wait_for, window
 from quadrille.core.setting_table import SETTINGS
 from quadrille.document.state import is_quad_mesh
-from quadrille.gui import commands, overlays
+from quadrille.gui import commands, overlays, solve
 from quadrille.solvers import checklist, results
 
 
@@ -294,6 +294,28 @@ class GuiTest(GuiCase):
         (text,), results = self.solve("echo '*ERROR in gauss: singular'; exit 201")
         self.assertIn("*ERROR in gauss: singular", text)
         self.assertEqual(results, 0)
+
+    def test_solves_with_the_other_solver_object(self):
+        """That of FreeCAD's framework; from 1.1 on, that which gives pipelines in its own panel."""
+        if not shutil.which("ccx"):
+            self.skipTest("CalculiX is not installed")
+        plate, analysis, solver = self.loaded_tube()
+        self.document.removeObject(solver.Name)
+        make = getattr(ObjectsFem, "makeSolverCalculiX", None) or ObjectsFem.makeSolverCalculix
+        solver = analysis.addObject(make(self.document))[0]
+        solver.BeamShellResultOutput3D = True
+        mesh = quadrille.freecad.mesh_object(plate, size=4, analysis=analysis)
+        for _ in range(2):  # the second replaces the first
+            solve.solve(mesh)
+            result, = (obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject"))
+            self.assertGreater(max(result.vonMises), 0)
+
+    def test_without_calculix(self):
+        plate, analysis, _ = self.loaded_tube()
+        quadrille.freecad.mesh_object(plate, size=4, analysis=analysis)
+        with mock.patch.dict(os.environ, PATH=""), Boxes() as boxes:
+            trigger("Quadrille_Solve")
+        self.assertIn("CalculiX is not installed", boxes.texts[-1])
 
     # In the FEM workbench
 

@@ -5,7 +5,7 @@ process of its own. FreeCAD's own command blocks the window until CalculiX has e
 import os
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any, Callable, Dict, Tuple
 
@@ -15,6 +15,7 @@ from PySide import QtCore
 
 from ..core.errors import Error
 from ..document.groups import analysis_of
+from ..solvers import results
 from . import progress_bar, translate
 
 #: Milliseconds between two looks at what runs; seconds after which the window lives again while results are read.
@@ -26,15 +27,14 @@ def solve(mesh) -> None:
     from femtools import ccxtools
 
     analysis = analysis_of(mesh)
-    members = analysis.Group if analysis is not None else ()
-    solvers = [obj for obj in members if getattr(getattr(obj, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"]
+    solvers = results.solvers_of(analysis)  # FreeCAD writes the same input for each of its kinds
     if len(solvers) != 1:
-        raise Error(translate("Quadrille", "{}: needs an analysis with one solver object CalculiX (ccx tools)").format(mesh.Label),
-                    "usage", mesh.Name)
+        raise Error(translate("Quadrille", "{}: needs an analysis with one CalculiX solver").format(mesh.Label), "usage", mesh.Name)
     tools = ccxtools.FemToolsCcx(analysis, solvers[0])
     tools.update_objects()
     tools.setup_working_dir()
-    tools.setup_ccx()
+    with suppress(FileNotFoundError):  # of FreeCAD 1.1; older ones tell it in a box
+        tools.setup_ccx()
     missing = tools.check_prerequisites()
     if missing or not tools.ccx_binary_present:
         raise Error(missing.strip() or translate("Quadrille", "CalculiX is not installed"), "usage", mesh.Name)
