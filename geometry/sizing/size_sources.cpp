@@ -247,7 +247,8 @@ void SizeSources::sample_face(FaceId id, const FaceSurface& surface, double spac
   const int nu = cells(lengths.x()), nv = cells(lengths.y());
   const Vector2 cell(extent.x() / nu, extent.y() / nv);
   for (int k = 0; k < nu * nv; ++k) {
-    const Vector2 middle((k % nu + 0.5) * cell.x(), (k / nu + 0.5) * cell.y());
+    const int column = k % nu, row = k / nu;
+    const Vector2 middle((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
     split_cell(sample, low + middle, cell, 0);
   }
 }
