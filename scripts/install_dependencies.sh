@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages needed to build and run Quadrille (Debian 12 and 13, and derivatives). Lists them before
-# installing. Safe to run again: does nothing if all are installed.
+# Installs the Debian packages needed to build and run Quadrille (Debian 12, 13 and unstable, and derivatives). Lists them
+# before installing. Safe to run again: does nothing if all are installed.
 #
 #   scripts/install_dependencies.sh           install what is missing for the command, the Python module and FreeCAD
 #   scripts/install_dependencies.sh --tests   and for the tests, benchmarks, packages and the manual

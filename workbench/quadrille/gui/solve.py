@@ -7,7 +7,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, Callable, Dict, Tuple
+from typing import Any, Callable, Dict, Set, Tuple
 
 import FreeCAD
 import FreeCADGui
@@ -20,6 +20,9 @@ from . import progress_bar, translate
 
 #: Milliseconds between two looks at what runs; seconds after which the window lives again while results are read.
 _INTERVAL, _SECONDS = 30, 0.1
+#: FreeCAD 1.1.3 crashes on closing a view if its destructor frees the Python object of its viewer, which the panel for results makes:
+#: these are kept.
+_viewers: Set[Any] = set()
 
 
 def solve(mesh) -> None:
@@ -128,4 +131,6 @@ def show(mesh) -> None:
         if any(map(obj.isDerivedFrom, ("Part::Feature", "Fem::FemMeshObject", "Fem::FemPostObject"))):
             obj.ViewObject.hide()
     FreeCAD.FEM_dialog = {"results_type": "Sabs", "show_disp": False, "disp_factor": 0.0, "disp_factor_max": 100.0}  # von Mises
-    FreeCADGui.getDocument(mesh.Document.Name).setEdit(_results(mesh)[-1].Name)
+    document = FreeCADGui.getDocument(mesh.Document.Name)
+    _viewers.update(view.getViewer() for view in document.mdiViewsOfType("Gui::View3DInventor"))
+    document.setEdit(_results(mesh)[-1].Name)
