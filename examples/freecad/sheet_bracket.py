@@ -38,13 +38,9 @@ def holes(shape, radius):
 
 def make_analysis(document, part):
     """An analysis as a user would set it up on the solid: bolts, pull, steel."""
-    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
-    solver = analysis.addObject(make_solver(document, "CalculiX"))[0]
+    analysis = quadrille.freecad.make_analysis(document)
+    solver = next(member for member in analysis.Group if hasattr(member, "AnalysisType"))
     solver.AnalysisType, solver.GeometricalNonlinearity = "static", "linear"
-    solver.BeamShellResultOutput3D = True  # stresses at the surfaces of the sheet
-    material = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
-    material.Material = {"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.3"}
     bolts = analysis.addObject(ObjectsFem.makeConstraintFixed(document, "Bolts"))[0]
     bolts.References = [(part, holes(part.Shape, BOLT))]
     pull = analysis.addObject(ObjectsFem.makeConstraintForce(document, "Pull"))[0]
