@@ -173,10 +173,9 @@ class Surroundings {
   Surroundings(const CadShape& shape, FaceId face, BoundaryNodes& nodes, FaceMeshes& meshes)
       : shape_(shape), nodes_(nodes), meshes_(meshes) {
     faces_.insert(face);
-    for (const CadWire& wire : shape.faces[face].wires)
-      for (const Coedge& coedge : wire.coedges)
-        for (const FaceId other : shape.edges[coedge.edge].faces)
-          if (meshes[other]) faces_.insert(other);
+    for (const EdgeId edge : shape.faces[face].edges())
+      for (const FaceId other : shape.edges[edge].faces)
+        if (meshes[other]) faces_.insert(other);
     quads_.points = nodes.points;
     for (const FaceId id : faces_) {
       const FaceMesh& mesh = *meshes[id];

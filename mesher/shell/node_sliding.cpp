@@ -605,8 +605,7 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
   EdgeFlags uncrossed = kept;
   for (const FaceId face : faces.ids()) {
     if (!faces[face] || !faces[face]->rows) continue;
-    for (const CadWire& wire : shape.faces[face].wires)
-      for (const Coedge& coedge : wire.coedges) uncrossed[coedge.edge] = 1;
+    for (const EdgeId edge : shape.faces[face].edges()) uncrossed[edge] = 1;
   }
   const std::vector<CompositeFace> composites = join_smooth_faces(shape, uncrossed, nodes, faces, context);
   {
