@@ -45,7 +45,6 @@ class AtomicFile {
   std::filesystem::path temporary_;  // name of the file until it is put in place; empty = unnamed
   bool in_place_ = false;
   int descriptor_ = -1, folder_descriptor_ = -1;
-  void* file_ = nullptr;  // the handle on Windows
 };
 
 /// Removes the temporary files of all files not yet committed. Safe in a signal handler; for a process about

@@ -10,9 +10,6 @@ namespace quadrille {
 /// room for. Opens nothing: safe for pipes.
 void require_readable(const std::filesystem::path& path);
 
-/// The system's message why the path cannot be read; empty if it can be. Opens nothing.
-std::string why_unreadable(const std::filesystem::path& path);
-
 /// The system's message why no file can be created in the folder; empty if one can be.
 std::string why_unwritable(const std::filesystem::path& folder);
 

@@ -17,17 +17,15 @@
 #include <exception>
 #include <ext/stdio_filebuf.h>
 #include <fstream>
-#include <istream>
 #include <new>
 #include <ostream>
-#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/isolated_answer.hpp"
 
 namespace quadrille {
 
@@ -80,6 +78,49 @@ class Child {
   pid_t id_;
 };
 
+constexpr std::string_view answer_without_memory = "\nquadrille has answered: M";
+constexpr std::string_view end_of_answer = answer_without_memory.substr(0, answer_without_memory.size() - 1);
+
+/// The kind of a child's answer, which it writes at the very end. A child that crashes does not get there.
+enum Answer : char {
+  result = 'R',
+  failure_sentence = 'F',
+  usage_sentence = 'U',
+  no_memory = answer_without_memory.back()
+};
+
+std::string sentence_about(const std::string& subject, const std::exception& problem) {
+  return subject + ": " + sentence_of(problem);
+}
+
+Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work, std::ostream& out) {
+  try {
+    work(out);
+    return result;
+  } catch (const Error& error) {
+    out << error.what();
+    return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
+  } catch (const std::exception& problem) {
+    out << sentence_about(subject, problem);
+  }
+  return failure_sentence;
+}
+
+/// What the child has made, from all that it wrote. Throws the Error that the child has thrown; Error
+/// (failure) if the end mark is missing.
+std::string result_of(const IsolatedWork& options, std::string bytes) {
+  const std::size_t length = end_of_answer.size() + 1;
+  const std::string_view all = bytes;
+  if (all.size() < length || !all.substr(all.size() - length).starts_with(end_of_answer))
+    throw failure(options.subject, options.crashed);
+  const char given = bytes.back();
+  if (given == no_memory) throw failure(options.subject, sentence_about(options.subject, std::bad_alloc()));
+  bytes.resize(bytes.size() - length);
+  if (given == failure_sentence) throw failure(options.subject, bytes);
+  if (given == usage_sentence) throw usage_error(options.subject, bytes);
+  return bytes;
+}
+
 int answering_pipe = -1;  ///< of a child
 
 /// Lack of memory ends a child at once: libraries swallow the exception and go on with less, or wait forever
@@ -124,7 +165,9 @@ void limit_memory(std::size_t bytes) {
   if (options.memory > 0) limit_memory(options.memory);
   __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
   std::ostream out(&buffer);
-  write_answer(options.subject, work, out);
+  const Answer given = answer(options.subject, work, out);
+  out << end_of_answer << static_cast<char>(given);
+  out.flush();
   ::_exit(0);
 }
 
@@ -157,7 +200,7 @@ std::string listen(Child& child, int pipe, const IsolatedWork& options) {
 
 }  // namespace
 
-std::string run_in_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {
+std::string run_isolated(const IsolatedWork& options, const std::function<void(std::ostream&)>& work) {
   if (options.context != nullptr) options.context->check();
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);

@@ -1,7 +1,6 @@
 #pragma once
 /// Our own shared objects, opened on demand: loading their libraries takes longer than meshing a small part.
 
-#include <filesystem>
 #include <string>
 
 #include "geometry/base/api.hpp"
@@ -12,17 +11,13 @@
 
 namespace quadrille {
 
-/// The folder of the program or shared library that contains this code; empty if not known.
-std::filesystem::path own_folder();
-
 /// An open module. It stays open until the program ends, since VTK and HDF5 cannot be unloaded safely.
 class Module {
  public:
-  /// Opens lib<prefix>.so (<prefix>.dll on Windows) in the folder of the program or library that contains
-  /// this code. If it is not there, opens it in the folder that modules are installed to, never in the
-  /// current folder. The environment variable QUADRILLE_MODULES, an absolute path, names another folder,
-  /// which is then the only one searched. Throws Error (failure) when the module is missing or of another
-  /// version.
+  /// Opens lib<prefix>.so in the folder of the program or library that contains this code. If it is not
+  /// there, opens it in the folder that modules are installed to, never in the current folder. The
+  /// environment variable QUADRILLE_MODULES, an absolute path, names another folder, which is then the only
+  /// one searched. Throws Error (failure) when the module is missing or of another version.
   explicit Module(const std::string& prefix);
 
   /// The function <prefix><name>, exported with C linkage. Throws Error (failure) when the module lacks it.

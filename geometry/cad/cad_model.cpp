@@ -93,8 +93,7 @@ CadModel build(const NamedShape& read, const std::string& name) {
 
 /// Reads and builds the model, in a child process if asked for. OpenCASCADE's exceptions become an Error.
 template <class Read>
-CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
-                 const IsolatedTask& task = {}) {
+CadModel guarded(const std::string& name, const ReadOptions& options, Read read) {
   silence_opencascade();
   try {
     if (!options.isolated) return build(read(), name);
@@ -103,7 +102,7 @@ CadModel guarded(const std::string& name, const ReadOptions& options, Read read,
       build(made, name);
       return made;
     };
-    return build(read_isolated(name, read_and_check, options.context, options.time_limit, 0, task), name);
+    return build(read_isolated(name, read_and_check, options.context, options.time_limit), name);
   } catch (const Standard_Failure& problem) {
     throw failure(name, fmt::format("{} could not be read as CAD ({})", name, problem.GetMessageString()));
   }
@@ -153,15 +152,12 @@ CadModel CadModel::read(const std::filesystem::path& path, const ReadOptions& op
   const std::string name = path.string();
   require_readable(path);
   const std::string extension = lower_ending(path);
-  const auto read_by = [&](const auto& reader) {
-    return guarded(name, options, reader, {"cad", {std::filesystem::absolute(path).string()}});
-  };
   if (extension == ".step" || extension == ".stp")
-    return read_by([&] { return read_exchange(path, "quadrille_step"); });
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_step"); });
   if (extension == ".iges" || extension == ".igs")
-    return read_by([&] { return read_exchange(path, "quadrille_iges"); });
+    return guarded(name, options, [&] { return read_exchange(path, "quadrille_iges"); });
   if (extension == ".brep" || extension == ".brp")
-    return read_by([&] {
+    return guarded(name, options, [&] {
       std::ifstream stream(path, std::ios::binary);
       return read_brep(stream, name);
     });

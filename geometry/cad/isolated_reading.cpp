@@ -6,12 +6,12 @@
 #include <BinTools.hxx>
 #include <Standard_Failure.hxx>
 #include <iomanip>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/cad/cad_model.hpp"
-#include "geometry/cad/cad_shape.hpp"
+#include "geometry/base/isolated_work.hpp"
 
 namespace quadrille {
 
@@ -53,28 +53,16 @@ std::string reading_too_long(const std::string& name, double time_limit) {
 }
 
 NamedShape read_isolated(const std::string& name, const std::function<NamedShape()>& read,
-                         ExecutionContext* context, double time_limit, std::size_t memory,
-                         const IsolatedTask& task) {
+                         ExecutionContext* context, double time_limit) {
   IsolatedWork options;
   options.subject = name;
   options.crashed = fmt::format("{}: reading this file crashed: it may be damaged", name);
   options.too_long = reading_too_long(name, time_limit);
   options.time_limit = time_limit;
-  options.memory = memory;
   options.context = context;
-  options.task = task;
   const auto work = [&](std::ostream& out) { send(name, read, out); };
-  NamedShape result;
-  run_isolated(options, work, [&](std::istream& in) { result = receive(in); });
-  return result;
-}
-
-void send_shape(const std::filesystem::path& path, std::ostream& out) {
-  const auto read = [&] {
-    const CadModel model = CadModel::read(path);
-    return NamedShape(model.shape().shape, model.face_names());
-  };
-  send(path.string(), read, out);
+  std::istringstream in(run_isolated(options, work));
+  return receive(in);
 }
 
 }  // namespace quadrille

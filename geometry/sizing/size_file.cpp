@@ -28,11 +28,11 @@ std::string file_of(const VdbField& field, const std::string& name) {
   options.crashed = options.too_long =
       fmt::format("{}: OpenVDB crashed while writing the sizes, probably out of memory or threads", name);
   options.time_limit = longest_with_vdb;
-  return isolated_bytes(options, [&] {
+  return run_isolated(options, [&](std::ostream& out) {
     std::string bytes;
     const std::string problem = vdb_module().function<VdbFileFunction>("_file")(field, bytes);
     if (!problem.empty()) throw failure(name, fmt::format("{}: {}", name, problem));
-    return bytes;
+    out << bytes;
   });
 }
 

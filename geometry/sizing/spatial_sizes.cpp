@@ -146,9 +146,7 @@ void SpatialSizes::open_external(const CadModel& model, const SizingOptions& opt
   trial.time_limit = longest_with_vdb;
   trial.memory = room + (unknown ? 0 : room_each_byte * bytes);
   trial.context = &context;
-  trial.task = {"vdb", {std::filesystem::absolute(options.size_field).string()}};
-  run_isolated(
-      trial, [&](std::ostream&) { opened_size_field(path); }, [](std::istream&) {});
+  run_isolated(trial, [&](std::ostream&) { opened_size_field(path); });
   ExternalSizes sizes = opened_size_field(path);
   const double unit = options.size_field_unit, scale = unit * options.size_field_scale;
   const Vector3 low = unit * sizes.low, high = unit * sizes.high;

@@ -1,14 +1,9 @@
-/// Checks of the files that commands are given, the progress line that is drawn on a terminal, and what ends
-/// a run early: signals.hpp rings.
+/// Checks of the files that commands are given, and the writing of those that they make.
 
 #include "mesher/command/command.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <system_error>
 
 #include "geometry/base/atomic_file.hpp"
@@ -16,10 +11,6 @@
 #include "geometry/base/file_access.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
-#include "geometry/base/printable.hpp"
-#include "geometry/cad/isolated_reading.hpp"
-#include "mesher/command/setting_options.hpp"
-#include "mesher/command/signals.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -44,16 +35,7 @@ void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
                     fmt::format("{}: the picture cannot be drawn ({})", path.string(), sentence));
     }
   };
-  run_isolated(options, work, [](std::istream&) {});
-}
-
-void print(std::string_view text) {
-  write_to_stdout(printable(text, {}, '\n'));
-}
-
-void say_line(std::string_view line) {
-  const std::string text = printable(line) + '\n';
-  std::fwrite(text.data(), 1, text.size(), stderr);  // nobody can be told that this fails
+  run_isolated(options, work);
 }
 
 namespace {
@@ -125,39 +107,6 @@ void require_usable(const CommandFiles& files) {
     for (std::size_t k = 0; k < i; ++k) require_different(all[k], all[i]);
 }
 
-ProgressDisplay::ProgressDisplay(bool quiet)
-    : quiet_(quiet), terminal_(stderr_is_terminal()), last_(std::chrono::steady_clock::now()) {}
-
-ProgressDisplay::~ProgressDisplay() {
-  if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
-}
-
-bool ProgressDisplay::show(std::string_view stage, double fraction) {
-  if (quiet_) return true;
-  const auto interval = std::chrono::milliseconds(terminal_ ? 100 : 500);
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last_ < interval) return true;
-  last_ = now;
-  const int percent = static_cast<int>(100 * std::min(std::max(fraction, 0.0), 1.0));
-  if (terminal_) {
-    draw_bar(stage, percent);
-    return true;
-  }
-  std::string text = fmt::format("progress: {} {} %\n", stage, percent);
-  if (text == last_text_) return true;
-  std::fputs(text.c_str(), stderr);
-  last_text_ = std::move(text);
-  return true;
-}
-
-void ProgressDisplay::draw_bar(std::string_view stage, int percent) {
-  constexpr int width = 30;
-  const int full = percent * width / 100;
-  fmt::print(stderr, "\r\033[K{:<12} [{:#<{}}{:.<{}}] {:3} %", stage, "", full, "", width - full, percent);
-  std::fflush(stderr);
-  drawn_ = true;
-}
-
 void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
                    ExecutionContext& context, CancelOnSignal& cancel) {
   const StageTimer timer(context, Stage::write);
@@ -171,55 +120,6 @@ void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings
     cancel.wrote(files.outputs[i]);
   }
   if (!files.picture.empty()) draw_apart(files.picture, context, [&] { write_picture(mesh, files.picture); });
-}
-
-namespace {
-
-std::vector<std::string> whole_files;
-
-void prepare_time_line(double time_limit) {
-  set_alarm_line(
-      fmt::format("quadrille: the time limit of {:g} s is reached{}\n", time_limit, left_behind()));
-}
-
-}  // namespace
-
-std::string left_behind() {
-  if (whole_files.empty()) return ", and nothing was written";
-  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
-}
-
-CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
-    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
-  whole_files.clear();
-  prepare_time_line(time_limit);
-  watch_signals(context, partial);
-  if (time_limit <= 0) return;
-  context.limit_time(time_limit);
-  ring_after(time_limit);
-}
-
-void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
-  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
-  set_alarm_line("quadrille: " + with_options(reading_too_long(printable(file.string()), seconds)) + "\n");
-  ring_after(seconds);
-}
-
-void CancelOnSignal::reading_is_done() {
-  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
-  ring_after(0);
-  prepare_time_line(time_limit_);
-  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
-}
-
-void CancelOnSignal::wrote(const std::filesystem::path& file) {
-  whole_files.push_back(printable(file.string()));
-  prepare_time_line(time_limit_);
-}
-
-CancelOnSignal::~CancelOnSignal() {
-  ring_after(0);
-  stop_watching_signals();
 }
 
 }  // namespace quadrille::command

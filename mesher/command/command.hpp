@@ -38,9 +38,6 @@ void add_settings_command(CLI::App& app);
 /// is closed or full.
 void print(std::string_view text);
 
-/// The same without escapes, for print() alone.
-void write_to_stdout(std::string_view text);
-
 /// Writes a line to stderr, with what a terminal would obey, line breaks too, shown escaped.
 void say_line(std::string_view line);
 
@@ -49,9 +46,6 @@ template <class... Values>
 void say(fmt::format_string<Values...> format, Values&&... values) {
   say_line(fmt::format(format, std::forward<Values>(values)...));
 }
-
-/// Whether stderr is a terminal.
-bool stderr_is_terminal();
 
 /// A file named on the command line, and the argument that names it: "-o", "--report", "IN". Optional files
 /// that are not given have no path.

@@ -45,7 +45,6 @@ int complain(const Error& error) {
 }
 
 void add_commands(CLI::App& app) {
-  app.allow_windows_style_options(false);  // "/part.step" is a file on all systems
   app.require_subcommand(1);
   app.set_version_flag("--version", "quadrille " + version());
   add_mesh_command(app);

@@ -1,6 +1,7 @@
-/// POSIX signals. docs/porting.md describes what replaces them on other systems.
+/// What ends a run early, by POSIX signals: Ctrl-C, time limits, the end of standard input, and crashes.
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -19,16 +21,20 @@
 #include <string>
 #include <thread>
 #include <typeinfo>
+#include <vector>
 
 #include "geometry/base/atomic_file.hpp"
-#include "geometry/base/isolated_work.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
+#include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/signals.hpp"
+#include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
 
+namespace {
+
+/// Rings once after that many seconds, in place of an earlier alarm; 0 = never.
 void ring_after(double seconds) {
   struct itimerval timer {};
   // Rounded up: setitimer takes zero for "never".
@@ -37,8 +43,6 @@ void ring_after(double seconds) {
   timer.it_value.tv_usec = static_cast<suseconds_t>(std::fmod(microseconds, 1e6));
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
-
-namespace {
 
 // State of the handlers below, which may call only what is safe in a signal handler.
 std::atomic<ExecutionContext*> cancellable{nullptr};
@@ -89,22 +93,56 @@ void copy_line(char (&buffer)[n], const std::string& line) {
   buffer[length + 1] = 0;
 }
 
-}  // namespace
+std::vector<std::string> whole_files;
 
-void set_alarm_line(const std::string& line) {
-  copy_line(time_line, line);
+void prepare_time_line(double time_limit) {
+  copy_line(time_line,
+            fmt::format("quadrille: the time limit of {:g} s is reached{}\n", time_limit, left_behind()));
 }
 
-void watch_signals(ExecutionContext& context, bool delivers) {
+}  // namespace
+
+std::string left_behind() {
+  if (whole_files.empty()) return ", and nothing was written";
+  return fmt::format(", and {} was written before", fmt::join(whole_files, ", "));
+}
+
+CancelOnSignal::CancelOnSignal(ExecutionContext& context, double time_limit, bool partial)
+    : time_limit_(time_limit), start_(std::chrono::steady_clock::now()) {
+  whole_files.clear();
+  prepare_time_line(time_limit);
   cancellable.store(&context);
   ending.store(false);
-  delivers_part.store(delivers);
+  delivers_part.store(partial);
   std::signal(SIGINT, cancel_work);
   std::signal(SIGTERM, cancel_work);
   std::signal(SIGALRM, handle_alarm);
+  if (time_limit <= 0) return;
+  context.limit_time(time_limit);
+  ring_after(time_limit);
 }
 
-void stop_watching_signals() {
+void CancelOnSignal::reading(const std::filesystem::path& file, double seconds) {
+  if (seconds <= 0 || (time_limit_ > 0 && time_limit_ <= seconds)) return;
+  copy_line(time_line,
+            "quadrille: " + with_options(reading_too_long(printable(file.string()), seconds)) + "\n");
+  ring_after(seconds);
+}
+
+void CancelOnSignal::reading_is_done() {
+  const std::chrono::duration<double> past = std::chrono::steady_clock::now() - start_;
+  ring_after(0);
+  prepare_time_line(time_limit_);
+  if (time_limit_ > 0) ring_after(std::max(time_limit_ - past.count(), 1e-3));
+}
+
+void CancelOnSignal::wrote(const std::filesystem::path& file) {
+  whole_files.push_back(printable(file.string()));
+  prepare_time_line(time_limit_);
+}
+
+CancelOnSignal::~CancelOnSignal() {
+  ring_after(0);
   std::signal(SIGALRM, SIG_IGN);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

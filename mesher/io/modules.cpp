@@ -48,7 +48,7 @@ std::string med_file(const OutputMesh& mesh, const std::string& name, const std:
   constexpr ModuleFunction<std::string, const OutputMesh&, const std::string&, const std::string&,
                            const std::string&>
       write{Library::med, "_file", ".med"};
-  return isolated_bytes(options, [&] { return write(mesh, name, description, unit); });
+  return run_isolated(options, [&](std::ostream& out) { out << write(mesh, name, description, unit); });
 }
 
 }  // namespace quadrille

@@ -127,7 +127,8 @@ ImportedMesh read_isolated(const std::string& name, const std::string& ending) {
     }
   };
   ImportedMesh mesh;
-  run_isolated(options, work, [&](std::istream& in) { mesh.each([&](auto& records) { get(records, in); }); });
+  std::istringstream in(run_isolated(options, work));
+  mesh.each([&](auto& records) { get(records, in); });
   return mesh;
 }
 

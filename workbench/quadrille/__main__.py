@@ -7,22 +7,18 @@ if __name__ == "__main__":
     entry.begin("quadrille: stopped")
 
 import os
-import subprocess
 import sys
 
 from .core.command import find_command
 from .core.errors import Error, printable
-from .core.system import WINDOWS
 
 
 def main() -> None:
-    """Replaces this process with the command, keeping the arguments; on Windows runs it."""
+    """Replaces this process with the command, keeping the arguments."""
     try:
         command = find_command()
     except Error as error:
         sys.exit(printable(f"quadrille: {error}"))
-    if WINDOWS:  # where exec does not wait
-        sys.exit(subprocess.run([command, *sys.argv[1:]], check=False).returncode)
     os.execv(command, [command, *sys.argv[1:]])
 
 

@@ -15,12 +15,12 @@ import subprocess
 import tempfile
 import threading
 import time
+import uuid
 from pathlib import Path
 from typing import IO, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
 
 from .errors import QT_TRANSLATE_NOOP, Error, translate
 from .setting_table import MeshSettings
-from .system import program, scratch_prefix, start_options
 
 #: Called with a stage name and the fraction of all the work done, in [0, 1]; returning False cancels the work.
 Progress = Callable[[str, float], Optional[bool]]
@@ -43,6 +43,27 @@ def on_host(arguments: Sequence[str]) -> List[str]:
     return [*_OUT_OF_FLATPAK, *arguments] if FLATPAK_INFO.exists() else list(arguments)
 
 
+#: Waits until its input closes, which happens when the process at the other end ends. Then removes all paths that begin with
+#: $1. It does so more than once, since a mesher that is ending at the same time may still create a file.
+_REMOVE_AT_END = 'cat; for i in 1 2 3; do rm -rf -- "$1"*; sleep 1; done'
+#: By process id and parent folder: the prefix of scratch folders, and the shell that removes them when this process ends.
+_scratch: Dict[Tuple[int, str], Tuple[str, subprocess.Popen]] = {}
+_scratch_lock = threading.Lock()  # a second shell for a folder would end the first, which removes what is in use
+
+
+def _scratch_prefix(place: str) -> str:
+    """How the names of this process's temporary folders in a folder begin; they are removed when it ends, even if it is killed."""
+    key = (os.getpid(), place)
+    with _scratch_lock:
+        if key not in _scratch:
+            prefix = f"quadrille-{os.getpid()}-{uuid.uuid4().hex[:8]}-"
+            shell = subprocess.Popen(["/bin/sh", "-c", _REMOVE_AT_END, "sh", os.path.join(place, prefix)],
+                                     stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                     env=child_environment(), start_new_session=True)
+            _scratch[key] = (prefix, shell)
+        return _scratch[key][0]
+
+
 def scratch_folder() -> "tempfile.TemporaryDirectory":
     """A temporary folder that the command can see too. It is removed when this process ends, even if it is killed."""
     place = translate("Quadrille", "the folder for temporary files")
@@ -52,7 +73,7 @@ def scratch_folder() -> "tempfile.TemporaryDirectory":
             # The sandbox has a /tmp of its own; its cache folder has the same path outside.
             place = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
             os.makedirs(place, exist_ok=True)
-        return tempfile.TemporaryDirectory(prefix=scratch_prefix(place, child_environment()), dir=place)
+        return tempfile.TemporaryDirectory(prefix=_scratch_prefix(place), dir=place)
     except OSError as error:
         raise Error(translate("Quadrille", "{}: no temporary folder can be made there ({}); set the environment variable TMPDIR to a "
                               "folder that can be written").format(place, error.strerror), "failure", place) from error
@@ -74,15 +95,13 @@ def which(path: str) -> Optional[str]:
 
 
 def _own(here: Path) -> Optional[str]:
-    """The command that came with this package: inside the package (wheel), in bin/ of the addon (Windows), or in bin/ of the
-    bundle's folder."""
-    name = program("quadrille")
-    folders = [here / name, here.parent / "bin" / name]
+    """The command that came with this package: inside the package (wheel), or in bin/ of the bundle's folder."""
+    folders = [here]
     if here.parts[-4:-1] == ("freecad", "Mod", "Quadrille"):  # BUNDLE/share/freecad/Mod/Quadrille/quadrille
-        folders.append(here.parents[4] / "bin" / name)
+        folders.append(here.parents[4] / "bin")
     elif here.parent.name == "python":
-        folders.append(here.parents[1] / "bin" / name)
-    for path in folders:
+        folders.append(here.parents[1] / "bin")
+    for path in (folder / "quadrille" for folder in folders):
         if path.is_file() and os.access(path, os.X_OK):
             return str(path)
     return None
@@ -135,8 +154,7 @@ def check_version(path: str) -> None:
         return
     try:
         answer = subprocess.run(on_host([path, "--version"]), stdin=subprocess.DEVNULL, capture_output=True,
-                                encoding="utf-8", errors="replace", timeout=30, env=child_environment(), check=False,
-                                **start_options())
+                                encoding="utf-8", errors="replace", timeout=30, env=child_environment(), check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         raise Error(translate("Quadrille", "{}: does not print its version ({}); install Quadrille {}").format(path, error, VERSION),
                     "failure", path) from error
@@ -165,7 +183,6 @@ class _Child(subprocess.Popen):
             encoding="utf-8",
             errors="replace",
             env=child_environment(),
-            **start_options(),
         )
 
 
