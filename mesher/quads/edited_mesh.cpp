@@ -163,13 +163,7 @@ double Filling::worst() const {
 
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
-  // Copy first: the arrays may be reallocated.
-  const Vector3 place = point(donor), up = normal(donor);
-  const Vector2 uv = mesh_.parameters[donor];
-  mesh_.mesh.points.push_back(place);
-  mesh_.normals.push_back(up);
-  mesh_.parameters.push_back(uv);
-  mesh_.fixed.push_back(0);
+  mesh_.add(mesh_.place_of(donor), false);
   if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
   on_triangle_.push_back(0);
   angles_.push_back(0);
@@ -184,10 +178,7 @@ std::vector<int> EditedMesh::write_back() {
     check();
     number[node] = static_cast<int>(kept.size());
     kept.push_back(node);
-    result.mesh.points.push_back(mesh_.mesh.points[node]);
-    result.parameters.push_back(mesh_.parameters[node]);
-    result.normals.push_back(mesh_.normals[node]);
-    result.fixed.push_back(mesh_.fixed[node]);
+    result.add(mesh_.place_of(node), mesh_.fixed[node] != 0);
     if (!mesh_.boundary_angles.empty()) result.boundary_angles.push_back(mesh_.boundary_angles[node]);
   };
   for (int node = 0; node < node_count(); ++node)

@@ -11,14 +11,18 @@
 
 namespace quadrille {
 
-/// The plane z = 0, or any set of points in it.
+/// A plane of constant z, seen from above, or any set of points in it.
 class PlanarSurface : public MeshSurface {
  public:
+  explicit PlanarSurface(double z = 0) : z_(z) {}
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
     uv = {target.x(), target.y()};
     normal = {0, 0, 1};
-    return {target.x(), target.y(), 0};
+    return {target.x(), target.y(), z_};
   }
+
+ private:
+  double z_;
 };
 
 /// Where a node is on its surface.
@@ -39,6 +43,12 @@ struct SurfaceMesh {
   std::vector<double> boundary_angles;
 
   SurfacePlace place_of(int node) const { return {mesh.points[node], normals[node], parameters[node]}; }
+  void add(const SurfacePlace& place, bool is_fixed) {
+    mesh.points.push_back(place.point);
+    normals.push_back(place.normal);
+    parameters.push_back(place.uv);
+    fixed.push_back(is_fixed);
+  }
   void put(int node, const SurfacePlace& place) {
     mesh.points[node] = place.point;
     normals[node] = place.normal;

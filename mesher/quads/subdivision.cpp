@@ -194,10 +194,7 @@ double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& 
 }  // namespace
 
 int FaceQuads::add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole) {
-  surface_mesh.mesh.points.push_back(point);
-  surface_mesh.parameters.push_back(uv);
-  surface_mesh.normals.push_back(normal);
-  surface_mesh.fixed.push_back(fixed);
+  surface_mesh.add({point, normal, uv}, fixed);
   pole.push_back(is_pole);
   return static_cast<int>(pole.size()) - 1;
 }

@@ -10,21 +10,17 @@
 namespace quadrille {
 
 TriangulatedSurface::TriangulatedSurface(TriangleMesh patch)
-    : points_(std::move(patch.points)),
-      triangles_(std::move(patch.triangles)),
-      twins_(triangles_.size(), {-1, -1, -1}),
-      normals_(points_.size(), Vector3::Zero()),
-      triangle_at_(points_.size(), -1),
-      boundary_(points_.size(), 0) {
-  TriangleMesh untagged;
-  untagged.points.swap(points_);
-  untagged.triangles.swap(triangles_);
-  join_twins(untagged, [this](Side a, Side b) {
+    : twins_(patch.triangles.size(), {-1, -1, -1}),
+      normals_(patch.points.size(), Vector3::Zero()),
+      triangle_at_(patch.points.size(), -1),
+      boundary_(patch.points.size(), 0) {
+  patch.tags.clear();
+  join_twins(patch, [this](Side a, Side b) {
     twins_[triangle_of(a)][index_of(a)] = b;
     twins_[triangle_of(b)][index_of(b)] = a;
   });
-  untagged.points.swap(points_);
-  untagged.triangles.swap(triangles_);
+  points_ = std::move(patch.points);
+  triangles_ = std::move(patch.triangles);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     const Vector3 area = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
@@ -110,20 +106,6 @@ Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& n
 
 namespace {
 
-/// A plane z = constant, seen from above.
-class LevelPlane : public MeshSurface {
- public:
-  explicit LevelPlane(double z) : z_(z) {}
-  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
-    uv = {target.x(), target.y()};
-    normal = {0, 0, 1};
-    return {target.x(), target.y(), z_};
-  }
-
- private:
-  double z_;
-};
-
 /// The elements of one tag, with their own numbering of the points.
 struct Patch {
   TriangleMesh triangulation;
@@ -200,7 +182,7 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
   const TriangulatedSurface triangulated(patch.triangulation);
   std::unique_ptr<MeshSurface> level;
   if (is_level(patch.triangulation))
-    level = std::make_unique<LevelPlane>(patch.triangulation.points.front().z());
+    level = std::make_unique<PlanarSurface>(patch.triangulation.points.front().z());
   const MeshSurface& surface = level ? *level : static_cast<const MeshSurface&>(triangulated);
   SurfaceMesh mesh;
   mesh.mesh = std::move(patch.quads);
