@@ -9,14 +9,6 @@
 #include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
-namespace {
-
-double angle_between(const Vector3& from, const Vector3& to, const Vector3& normal) {
-  const double angle = std::atan2(from.cross(to).dot(normal), from.dot(to));
-  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
-}
-
-}  // namespace
 
 EditedMesh::EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context)
     : mesh_(mesh),
@@ -25,10 +17,6 @@ EditedMesh::EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context)
       on_triangle_(mesh.mesh.points.size(), 0) {
   for (const auto& triangle : mesh_.mesh.triangles)
     for (const int node : triangle) on_triangle_[node] = 1;
-  measure_boundary();
-}
-
-void EditedMesh::measure_boundary() {
   angles_.assign(mesh_.mesh.points.size(), 0);
   std::vector<int> fans(mesh_.mesh.points.size(), 0);
   SparseCheck check(context_);
@@ -38,7 +26,8 @@ void EditedMesh::measure_boundary() {
     if (inner(node)) continue;  // its angle is never used
     const int before = topology_.origin(QuadTopology::previous(side));
     const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
-    angles_[node] += angle_between(forth, back, normal(node));
+    const double angle = std::atan2(forth.cross(back).dot(normal(node)), forth.dot(back));
+    angles_[node] += angle < 0 ? angle + 2 * std::numbers::pi : angle;
     if (topology_.twin(side) < 0) ++fans[node];
   }
   for (std::size_t i = 0; i < angles_.size(); ++i)
@@ -50,10 +39,7 @@ void EditedMesh::measure_boundary() {
 
 double EditedMesh::worst(std::span<const Quad> quads) const {
   double least = 1;
-  for (const Quad& q : quads) {
-    const Vector3 up = normal(q[0]) + normal(q[1]) + normal(q[2]) + normal(q[3]);
-    least = std::min(least, folded_scaled_jacobian(point(q[0]), point(q[1]), point(q[2]), point(q[3]), up));
-  }
+  for (const Quad& quad : quads) least = std::min(least, mesh_.quality(quad));
   return least;
 }
 

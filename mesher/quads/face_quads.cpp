@@ -60,19 +60,13 @@ void clean(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& o
 
 void mend_folded(FaceQuads& quads, const MeshSurface& surface, ExecutionContext& context) {
   const StageTimer timer(context, Stage::improve);
-  if (!is_folded(quads.surface_mesh.mesh)) return;
+  if (!has_inverted_quads(quads.surface_mesh.mesh)) return;
   std::vector<char> changed;
   mend_quads(quads.surface_mesh, surface, folded_objective, -1, changed, context);
   keep_poles(quads);
 }
 
 }  // namespace
-
-bool is_folded(const QuadMesh& mesh) {
-  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return quad_scaled_jacobian(mesh.points, q) <= no_jacobian;
-  });
-}
 
 void smooth(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context) {

@@ -1,12 +1,14 @@
 #pragma once
 /// Improving quads: topological clean-up and smoothing on a surface.
 
+#include <array>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
 #include "geometry/surfaces/mesh_surface.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/quads/improve_options.hpp"
 
 namespace quadrille {
@@ -53,6 +55,12 @@ struct SurfaceMesh {
     mesh.points[node] = place.point;
     normals[node] = place.normal;
     parameters[node] = place.uv;
+  }
+  /// The scaled Jacobian of a quad, negative where it is folded against the normals at its corners.
+  double quality(const std::array<int, 4>& quad) const {
+    const auto& [a, b, c, d] = quad;
+    const auto& p = mesh.points;
+    return folded_scaled_jacobian(p[a], p[b], p[c], p[d], normals[a] + normals[b] + normals[c] + normals[d]);
   }
   /// The place nearest to a target, searched from a node's place.
   SurfacePlace moved(const MeshSurface& surface, int node, const Vector3& target) const {

@@ -29,10 +29,6 @@ QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags
     : quads_(std::move(quads)), tags_(tags) {
   context.check();
   sides_.assign(node_count, -1);
-  link(context);
-}
-
-void QuadTopology::link(const ExecutionContext& context) {
   SparseCheck check(context);
   twins_.assign(4 * quads_.size(), boundary);
   const auto join = [&](int, int, std::span<const int> same) {
@@ -90,7 +86,7 @@ bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) 
     const Fan round = fan(start);
     int at = round.first;
     for (int i = 0; i < round.quads; ++i, at = rotate(at)) {
-      if (std::find(patch.begin(), patch.end(), at >> 2) != patch.end()) continue;
+      if (contains(patch, at >> 2)) continue;
       if (end(at) == to || origin(previous(at)) == to) return true;
     }
     return false;

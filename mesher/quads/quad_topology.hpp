@@ -88,7 +88,6 @@ class QuadTopology {
     bool outer;   ///< whether an outer side of the old quads runs along it
   };
 
-  void link(const ExecutionContext& context);
   /// Sets `outer` and `outside`. False unless each outer side of the patch is found once among the new sides.
   bool find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const;
   /// Sets `twin` of all other sides. False unless they join each other in pairs.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 namespace quadrille {
 
@@ -113,33 +114,6 @@ struct Patch {
   std::vector<int> global;  ///< (points of the patch) index of the point in the whole
 };
 
-/// Numbers the points of a patch in the order in which they come.
-class Localiser {
- public:
-  Localiser(const std::vector<Vector3>& points, std::vector<int>& local) : points_(points), local_(local) {}
-
-  template <std::size_t N>
-  std::array<int, N> operator()(std::array<int, N> corners, Patch& patch) {
-    for (int& v : corners) {
-      if (local_[v] < 0) {
-        local_[v] = static_cast<int>(patch.global.size());
-        patch.global.push_back(v);
-        patch.triangulation.points.push_back(points_[v]);
-      }
-      v = local_[v];
-    }
-    return corners;
-  }
-
-  void forget(const Patch& patch) {
-    for (int v : patch.global) local_[v] = -1;
-  }
-
- private:
-  const std::vector<Vector3>& points_;
-  std::vector<int>& local_;
-};
-
 /// The elements of each tag, in the order of the mesh.
 template <class Element>
 std::map<int, std::vector<int>> by_tag(const std::vector<Element>& elements, const std::vector<int>& tags) {
@@ -199,7 +173,7 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
   } else {
     // Without clean-up nothing is renumbered: all points are where they were.
     fixed.resize(mesh.mesh.points.size());
-    for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = static_cast<int>(v);
+    std::iota(fixed.begin(), fixed.end(), 0);
   }
   smooth(mesh, surface, options, context);
   return mesh;
@@ -210,25 +184,30 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
                     std::vector<int>& renumbered, ExecutionContext& context) {
   QuadMesh result;
-  std::vector<int> local(triangulation.points.size(), -1);
+  std::vector<int> local(triangulation.points.size(), -1);  // number in the patch at hand
   renumbered.assign(triangulation.points.size(), -1);
   const auto triangles_by_tag = by_tag(triangulation.triangles, triangulation.tags);
-  const auto quads_by_tag = by_tag(quads.quads, quads.quad_tags);
-  const auto left_by_tag = by_tag(quads.triangles, quads.triangle_tags);
+  auto quads_by_tag = by_tag(quads.quads, quads.quad_tags);
+  auto left_by_tag = by_tag(quads.triangles, quads.triangle_tags);
   const bool tagged = !triangulation.tags.empty();
   const std::vector<char> shared = points_that_stay(triangulation);
-  Localiser localise(triangulation.points, local);
   for (const auto& [tag, members] : triangles_by_tag) {
     context.check();
     Patch patch;
-    for (int t : members)
-      patch.triangulation.triangles.push_back(localise(triangulation.triangles[t], patch));
-    if (const auto found = quads_by_tag.find(tag); found != quads_by_tag.end()) {
-      for (int q : found->second) patch.quads.quads.push_back(localise(quads.quads[q], patch));
-    }
-    if (const auto found = left_by_tag.find(tag); found != left_by_tag.end()) {
-      for (int t : found->second) patch.quads.triangles.push_back(localise(quads.triangles[t], patch));
-    }
+    const auto localise = [&](auto corners) {  // points are numbered in the order in which they come
+      for (int& v : corners) {
+        if (local[v] < 0) {
+          local[v] = static_cast<int>(patch.global.size());
+          patch.global.push_back(v);
+          patch.triangulation.points.push_back(triangulation.points[v]);
+        }
+        v = local[v];
+      }
+      return corners;
+    };
+    for (int t : members) patch.triangulation.triangles.push_back(localise(triangulation.triangles[t]));
+    for (int q : quads_by_tag[tag]) patch.quads.quads.push_back(localise(quads.quads[q]));
+    for (int t : left_by_tag[tag]) patch.quads.triangles.push_back(localise(quads.triangles[t]));
     std::vector<int> fixed;
     const SurfaceMesh improved = improve_patch(patch, shared, options, fixed, context);
     // The fixed points come first, and patches share them; the others are the patch's own.
@@ -254,7 +233,7 @@ QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, co
       result.quad_tags.resize(result.quads.size(), tag);
       result.triangle_tags.resize(result.triangles.size(), tag);
     }
-    localise.forget(patch);
+    for (const int v : patch.global) local[v] = -1;
   }
   return result;
 }

@@ -245,6 +245,17 @@ void check_midsides(const ShellMesh& mesh, Findings& findings) {
   }
 }
 
+/// Checks that second-order elements are valid everywhere, not only at their corners.
+void check_curved(const ShellMesh& mesh, Findings& findings) {
+  if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    const CurvedQuad element = curved_quad(mesh, i);
+    if (!folds(element)) continue;
+    const double bound = jacobian_bound(element);
+    findings.add("quad {} folds between its nodes: its Jacobian falls to {}", i, number_text(bound));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> validate(const TriangleMesh& mesh) {
@@ -262,21 +273,6 @@ std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex) {
   if (check_elements(elements, findings) && require_convex) check_convex(elements, findings);
   return findings.take();
 }
-
-namespace {
-
-/// Checks that second-order elements are valid everywhere, not only at their corners.
-void check_curved(const ShellMesh& mesh, Findings& findings) {
-  if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-    const CurvedQuad element = curved_quad(mesh, i);
-    if (!folds(element)) continue;
-    const double bound = jacobian_bound(element);
-    findings.add("quad {} folds between its nodes: its Jacobian falls to {}", i, number_text(bound));
-  }
-}
-
-}  // namespace
 
 std::vector<std::string> validate(const ShellMesh& mesh, bool closed) {
   Findings findings;
