@@ -37,7 +37,6 @@ class CleanUp : private EditedMesh {
 
   /// Refills small patches around irregular nodes where that improves the valences.
   bool improve_valences() {
-    queue_.clear();
     queued_.assign(mesh_.mesh.points.size(), 0);
     bool any = false;
     SparseCheck check(context_);

@@ -13,7 +13,7 @@ namespace quadrille {
 EditedMesh::EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context)
     : mesh_(mesh),
       context_(context),
-      topology_(mesh.mesh.quads, mesh.mesh.quad_tags, static_cast<int>(mesh.mesh.points.size()), context),
+      topology_(mesh.mesh.quads, static_cast<int>(mesh.mesh.points.size()), context),
       on_triangle_(mesh.mesh.points.size(), 0) {
   for (const auto& triangle : mesh_.mesh.triangles)
     for (const int node : triangle) on_triangle_[node] = 1;
@@ -176,11 +176,9 @@ std::vector<int> EditedMesh::write_back() {
     if (!topology_.alive(quad)) continue;
     const Quad& q = topology_.quad(quad);
     result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
-    if (topology_.tagged()) result.mesh.quad_tags.push_back(topology_.tag(quad));
   }
   for (auto& triangle : mesh_.mesh.triangles)
     result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
-  result.mesh.triangle_tags = std::move(mesh_.mesh.triangle_tags);
   context_.check();
   mesh_ = std::move(result);
   return kept;

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "mesher/faces/loop_filling.hpp"
-#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/mending.hpp"

@@ -35,7 +35,7 @@ struct SurfacePlace {
 
 /// A quad mesh of one face while it is improved.
 struct SurfaceMesh {
-  QuadMesh mesh;
+  QuadMesh mesh;                    ///< without tags
   std::vector<Vector2> parameters;  ///< (n) surface parameters of each point
   std::vector<Vector3> normals;     ///< (n) unit surface normals at each point
   std::vector<char> fixed;          ///< (n) 1 = on the boundary: never moved, merged or removed

@@ -3,7 +3,6 @@
 #include "mesher/quads/triangulated_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <numeric>

@@ -1,9 +1,6 @@
 #pragma once
 /// Compares meshes of one face: which of the candidates is delivered, and which need not be tried. Internal.
 
-#include <array>
-#include <vector>
-
 #include "geometry/base/execution_context.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/shell/face_mesher.hpp"

@@ -12,7 +12,6 @@
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/edges/grid_rows.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/faces/hole_rings.hpp"

@@ -6,7 +6,6 @@
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
