@@ -20,6 +20,7 @@ int segments_of(const Chain& chain) {
 
 std::vector<int> segments_of(const std::vector<Chain>& sides) {
   std::vector<int> result;
+  result.reserve(sides.size());
   for (const Chain& side : sides) result.push_back(segments_of(side));
   return result;
 }
@@ -82,6 +83,7 @@ class Filler {
     }
     const int center = add(middle);
     std::vector<Chain> rows;
+    rows.reserve(n);
     for (int i = 0; i < n; ++i) rows.push_back(row(feet[i], center, before[(i + 1) % n]));
     for (int i = 0, last = n - 1; i < n; last = i++)
       grid(Chain(sides[i].begin(), sides[i].begin() + before[i] + 1), rows[i],
