@@ -27,6 +27,14 @@ inline double quad_scaled_jacobian(std::span<const Vector3> points, const std::a
   return quad_scaled_jacobian(points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]);
 }
 
+/// \param mesh with points and quads
+template <class Mesh>
+bool has_inverted_quads(const Mesh& mesh) {
+  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& quad) {
+    return !(quad_scaled_jacobian(mesh.points, quad) > no_jacobian);
+  });
+}
+
 /// A vector as long as the area of a quad and normal to it. Indices into points.
 inline Vector3 quad_area_vector(std::span<const Vector3> points, const std::array<int, 4>& quad) {
   return 0.5 * (points[quad[2]] - points[quad[0]]).cross(points[quad[3]] - points[quad[1]]);

@@ -137,10 +137,7 @@ class CavityFiller {
   double mean_objective(const std::vector<Quad>& quads) const {
     constexpr double max_each = 20;
     double sum = 0;
-    for (const Quad& q : quads)
-      sum += std::min(max_each, measure_objective(mesh_.point(q[0]), mesh_.point(q[1]), mesh_.point(q[2]),
-                                                  mesh_.point(q[3]))
-                                    .value);
+    for (const Quad& quad : quads) sum += std::min(max_each, measure_objective(mesh_.points(), quad).value);
     return sum / static_cast<double>(quads.size());
   }
 
@@ -239,14 +236,13 @@ class Cavities : private EditedMesh {
     reached_.resize(topology_.size(), 0);
     met_.resize(node_count(), 0);
     tried_.clear();
-    chooses_ = false;
-    if (add_fan(node) && grow_until_filled()) return true;
-    patch_.clear();
-    if (tried_.empty()) return false;
-    tried_.erase(tried_.begin() + 1, tried_.end());
-    chooses_ = true;
-    if (add_fan(node) && grow_until_filled()) return true;
-    patch_.clear();
+    for (const bool chooses : {false, true}) {
+      chooses_ = chooses;
+      if (chooses && tried_.empty()) return false;
+      if (chooses) tried_.resize(1);
+      if (add_fan(node) && grow_until_filled()) return true;
+      patch_.clear();
+    }
     return false;
   }
 

@@ -36,24 +36,199 @@ class CleanUp : private EditedMesh {
   }
 
   /// Refills small patches around irregular nodes where that improves the valences.
-  bool improve_valences();
+  bool improve_valences() {
+    queued_.assign(mesh_.mesh.points.size(), 0);
+    bool any = false;
+    SparseCheck check(context_);
+    for (int node = 0; node < node_count(); ++node) {
+      check();
+      if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
+    }
+    std::fill(doubtful_.begin(), doubtful_.end(), 0);
+    // Each move lowers the cost by at least min_gain, so the queue empties; the bound is for safety only.
+    const std::size_t bound = 40 * queue_.size() + 1000;
+    SparseCheck check_often(context_, 16);
+    for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
+      check_often();
+      const int node = queue_[head];
+      queued_[node] = 0;
+      if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
+      blocked_ = false;
+      if (improve_round(node))
+        any = true;
+      else if (blocked_)
+        doubtful_[node] = 1;
+    }
+    return any;
+  }
 
-  void write_back();
+  void write_back() {
+    std::vector<char> doubtful;
+    for (const int node : EditedMesh::write_back()) doubtful.push_back(doubtful_[node]);
+    doubtful_ = std::move(doubtful);
+  }
 
  private:
-  double cost_at(int node) const;
-  bool improve_round(int node);
-
   /// What a quad adds to each patch that holds it: constant while the patches around one node are tried.
   struct QuadState {
     int round = 0;
     double cost = 0;          ///< sum of its nodes' costs
     std::uint64_t print = 0;  ///< changes with its nodes and their valences
   };
-  const QuadState& state_of(int quad);
-  bool try_patch(const SmallPatch& patch);
-  bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling);
-  void push(int node);
+
+  double cost_at(int node) const {
+    const int side = topology_.side_of(node);
+    if (side < 0) return 0;
+    return node_cost(node, topology_.valence(side));
+  }
+
+  void push(int node) {
+    if (queued_.size() < mesh_.mesh.points.size()) queued_.resize(mesh_.mesh.points.size(), 0);
+    if (queued_[node]) return;
+    queued_[node] = 1;
+    queue_.push_back(node);
+  }
+
+  /// Tries the patches around a node until one gains.
+  bool improve_round(int node) {
+    ++round_;
+    const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
+    if (fan.quads > 12) return false;
+    std::array<int, 12> sides;
+    for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) sides[i] = at;
+    const auto quad_across = [&](int side) {
+      return topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
+    };
+
+    // The node's own ring.
+    SmallPatch ring;
+    bool whole = true;
+    for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
+    if (whole && ring.count > 1 && try_patch(ring)) return true;
+    // Pairs of quads, then chains of three.
+    for (int i = 0; i < fan.quads; ++i)
+      for (int k = 0; k < 4; ++k) {
+        SmallPatch pair;
+        pair.add(sides[i] >> 2);
+        if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
+          continue;  // that pair is tried from there
+        if (pair.add(quad_across(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
+      }
+    for (int i = 0; i < fan.quads; ++i)
+      for (int k = 0; k < 4; ++k) {
+        SmallPatch pair;
+        pair.add(sides[i] >> 2);
+        if (!pair.add(quad_across(4 * (sides[i] >> 2) + k))) continue;
+        for (int member = 0; member < 2; ++member)
+          for (int j = 0; j < 4; ++j) {
+            SmallPatch triple = pair;
+            if (triple.add(quad_across(4 * pair.quads[member] + j)) && triple.count == 3 && try_patch(triple))
+              return true;
+          }
+      }
+    // The node's ring with the ring of each other node of its quads.
+    for (int i = 0; i < fan.quads && whole; ++i)
+      for (int step = 1; step <= 2; ++step) {
+        const Quad& q = topology_.quad(sides[i] >> 2);
+        const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
+        if (!topology_.closed(topology_.origin(other_side))) continue;
+        SmallPatch both = ring;
+        if (topology_.add_fan(other_side, both) && try_patch(both)) return true;
+      }
+    return false;
+  }
+
+  const QuadState& state_of(int quad) {
+    const auto mix = [](std::uint64_t value) {
+      value = (value ^ (value >> 31)) * 0x9E3779B97F4A7C15u;
+      return value ^ (value >> 29);
+    };
+    if (states_.size() <= static_cast<std::size_t>(quad)) states_.resize(topology_.size());
+    QuadState& state = states_[quad];
+    if (state.round == round_) return state;
+    state = {round_, 0, 0};
+    for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
+      const int node = topology_.origin(side), valence = topology_.valence(side);
+      state.cost += node_cost(node, valence);
+      state.print += mix(static_cast<std::uint64_t>(side) << 32 ^ static_cast<std::uint64_t>(node) << 6 ^
+                         static_cast<std::uint64_t>(valence));
+    }
+    return state;
+  }
+
+  /// Refills the patch by the cheapest template whose shapes are acceptable, if that gains.
+  bool try_patch(const SmallPatch& patch) {
+    // No gain unless two nodes are irregular. The sum counts a node once per quad, so it is an upper bound.
+    double most = 0;
+    std::uint64_t fingerprint = 0;  // equal for the same quads in any order, as long as they keep their nodes
+    for (int i = 0; i < patch.count; ++i) {
+      const QuadState& state = state_of(patch.quads[i]);
+      most += state.cost;
+      fingerprint += state.print;
+    }
+    if (most < worth_trying) return false;
+    std::uint64_t& slot = tried_[fingerprint % tried_slots];
+    if (slot == fingerprint) return false;
+    slot = fingerprint;
+    Outline outline;
+    if (!trace(patch, outline)) return false;
+    FillingCosts costs;
+    const double cost = find_costs(outline, costs);
+    if (cost < worth_trying) return false;
+
+    // Of two fillings with the same gain, prefer the one that brings back the first number of quads.
+    const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
+    for (int interior = 0; interior <= PatchTemplate::max_interior; ++interior) {
+      const int added = interior - outline.inside_count;
+      costs.resize[interior] = resize_cost * std::abs(added);
+      costs.drift[interior] = drift * added;
+    }
+    costs.limit = cost - min_gain;
+    const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
+    for (int i = 0; i < cheapest.count; ++i)
+      if (fill(patch, outline, *cheapest.fillings[i])) return true;
+    if (cheapest.count > 0) {
+      // If the patch is met again from another node, it must count as blocked there too.
+      blocked_ = true;
+      slot = 0;
+    }
+    return false;
+  }
+
+  bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
+    const std::span<const int> old(patch.quads.data(), patch.count);
+    std::array<Quad, SmallPatch::max_quads> replaced, quads;
+    std::transform(old.begin(), old.end(), replaced.begin(), [&](int quad) { return topology_.quad(quad); });
+    const std::span<const Quad> before(replaced.data(), patch.count);
+    const double floor = std::min(worst(before), mendable_patch);
+    Filling filled = laid(outline, filling);
+    if (!(filled.worst() > floor)) return false;
+
+    // Move the nodes to the surface only now.
+    std::array<SurfacePlace, PatchTemplate::max_interior> saved;
+    const int n = outline.length;
+    int donor = filled.nodes[0];
+    for (int i = 0; i < n; ++i)
+      if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
+    for (int i = 0; i < filling.interior; ++i) {
+      const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
+      saved[i] = mesh_.place_of(node);
+      filled.nodes[n + i] = node;
+      mesh_.put(node, mesh_.moved(surface_, node, filled.x[n + i]));
+      filled.x[n + i] = point(node);
+    }
+    doubtful_.resize(mesh_.mesh.points.size(), 0);
+    for (int k = 0; k < filling.quads; ++k)
+      for (int j = 0; j < 4; ++j) quads[k][j] = filled.nodes[filling.corners[k][j]];
+    const std::span<const Quad> after(quads.data(), filling.quads);
+    if (filled.worst() > floor && !too_long(before, after) && topology_.replace(old, after)) {
+      drift_ += filling.quads - patch.count;
+      for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
+      return true;
+    }
+    for (int i = 0; i < filling.interior; ++i) mesh_.put(filled.nodes[n + i], saved[i]);
+    return false;
+  }
 
   static constexpr std::size_t tried_slots = 1 << 13;
 
@@ -68,193 +243,6 @@ class CleanUp : private EditedMesh {
   std::vector<int> queue_;  ///< nodes whose surroundings will be tried
   std::vector<char> queued_;
 };
-
-double CleanUp::cost_at(int node) const {
-  const int side = topology_.side_of(node);
-  if (side < 0) return 0;
-  return node_cost(node, topology_.valence(side));
-}
-
-void CleanUp::push(int node) {
-  if (queued_.size() < mesh_.mesh.points.size()) queued_.resize(mesh_.mesh.points.size(), 0);
-  if (queued_[node]) return;
-  queued_[node] = 1;
-  queue_.push_back(node);
-}
-
-bool CleanUp::improve_valences() {
-  queue_.clear();
-  queued_.assign(mesh_.mesh.points.size(), 0);
-  bool any = false;
-  SparseCheck check(context_);
-  for (int node = 0; node < node_count(); ++node) {
-    check();
-    if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
-  }
-  std::fill(doubtful_.begin(), doubtful_.end(), 0);
-  // Each move lowers the cost by at least min_gain, so the queue empties; the bound is for safety only.
-  const std::size_t bound = 40 * queue_.size() + 1000;
-  SparseCheck check_often(context_, 16);
-  for (std::size_t head = 0; head < queue_.size() && head < bound; ++head) {
-    check_often();
-    const int node = queue_[head];
-    queued_[node] = 0;
-    if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
-    blocked_ = false;
-    if (improve_round(node))
-      any = true;
-    else if (blocked_)
-      doubtful_[node] = 1;
-  }
-  return any;
-}
-
-/// Tries the patches around a node until one gains.
-bool CleanUp::improve_round(int node) {
-  ++round_;
-  const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
-  if (fan.quads > 12) return false;
-  std::array<int, 12> sides;
-  for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) sides[i] = at;
-  const auto quad_across = [&](int side) {
-    return topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
-  };
-
-  // The node's own ring.
-  SmallPatch ring;
-  bool whole = true;
-  for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
-  if (whole && ring.count > 1 && try_patch(ring)) return true;
-  // Pairs of quads, then chains of three.
-  for (int i = 0; i < fan.quads; ++i)
-    for (int k = 0; k < 4; ++k) {
-      SmallPatch pair;
-      pair.add(sides[i] >> 2);
-      if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
-        continue;  // that pair is tried from there
-      if (pair.add(quad_across(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
-    }
-  for (int i = 0; i < fan.quads; ++i)
-    for (int k = 0; k < 4; ++k) {
-      SmallPatch pair;
-      pair.add(sides[i] >> 2);
-      if (!pair.add(quad_across(4 * (sides[i] >> 2) + k))) continue;
-      for (int member = 0; member < 2; ++member)
-        for (int j = 0; j < 4; ++j) {
-          SmallPatch triple = pair;
-          if (triple.add(quad_across(4 * pair.quads[member] + j)) && triple.count == 3 && try_patch(triple))
-            return true;
-        }
-    }
-  // The node's ring with the ring of each other node of its quads.
-  for (int i = 0; i < fan.quads && whole; ++i)
-    for (int step = 1; step <= 2; ++step) {
-      const Quad& q = topology_.quad(sides[i] >> 2);
-      const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
-      if (!topology_.closed(topology_.origin(other_side))) continue;
-      SmallPatch both = ring;
-      if (topology_.add_fan(other_side, both) && try_patch(both)) return true;
-    }
-  return false;
-}
-
-const CleanUp::QuadState& CleanUp::state_of(int quad) {
-  const auto mix = [](std::uint64_t value) {
-    value = (value ^ (value >> 31)) * 0x9E3779B97F4A7C15u;
-    return value ^ (value >> 29);
-  };
-  if (states_.size() <= static_cast<std::size_t>(quad)) states_.resize(topology_.size());
-  QuadState& state = states_[quad];
-  if (state.round == round_) return state;
-  state = {round_, 0, 0};
-  for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
-    const int node = topology_.origin(side), valence = topology_.valence(side);
-    state.cost += node_cost(node, valence);
-    state.print += mix(static_cast<std::uint64_t>(side) << 32 ^ static_cast<std::uint64_t>(node) << 6 ^
-                       static_cast<std::uint64_t>(valence));
-  }
-  return state;
-}
-
-/// Refills the patch by the cheapest template whose shapes are acceptable, if that gains.
-bool CleanUp::try_patch(const SmallPatch& patch) {
-  // No gain unless two nodes are irregular. The sum counts a node once per quad, so it is an upper bound.
-  double most = 0;
-  std::uint64_t fingerprint = 0;  // equal for the same quads in any order, as long as they keep their nodes
-  for (int i = 0; i < patch.count; ++i) {
-    const QuadState& state = state_of(patch.quads[i]);
-    most += state.cost;
-    fingerprint += state.print;
-  }
-  if (most < worth_trying) return false;
-  std::uint64_t& slot = tried_[fingerprint % tried_slots];
-  if (slot == fingerprint) return false;
-  slot = fingerprint;
-  Outline outline;
-  if (!trace(patch, outline)) return false;
-  FillingCosts costs;
-  const double cost = find_costs(outline, costs);
-  if (cost < worth_trying) return false;
-
-  // Of two fillings with the same gain, prefer the one that brings back the first number of quads.
-  const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
-  for (int interior = 0; interior <= PatchTemplate::max_interior; ++interior) {
-    const int added = interior - outline.inside_count;
-    costs.resize[interior] = resize_cost * std::abs(added);
-    costs.drift[interior] = drift * added;
-  }
-  costs.limit = cost - min_gain;
-  const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
-  for (int i = 0; i < cheapest.count; ++i)
-    if (fill(patch, outline, *cheapest.fillings[i])) return true;
-  if (cheapest.count > 0) {
-    // If the patch is met again from another node, it must count as blocked there too.
-    blocked_ = true;
-    slot = 0;
-  }
-  return false;
-}
-
-bool CleanUp::fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
-  const std::span<const int> old(patch.quads.data(), patch.count);
-  std::array<Quad, SmallPatch::max_quads> replaced, quads;
-  std::transform(old.begin(), old.end(), replaced.begin(), [&](int quad) { return topology_.quad(quad); });
-  const std::span<const Quad> before(replaced.data(), patch.count);
-  const double floor = std::min(worst(before), mendable_patch);
-  Filling filled = laid(outline, filling);
-  if (!(filled.worst() > floor)) return false;
-
-  // Move the nodes to the surface only now.
-  std::array<SurfacePlace, PatchTemplate::max_interior> saved;
-  const int n = outline.length;
-  int donor = filled.nodes[0];
-  for (int i = 0; i < n; ++i)
-    if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
-  for (int i = 0; i < filling.interior; ++i) {
-    const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
-    saved[i] = mesh_.place_of(node);
-    filled.nodes[n + i] = node;
-    mesh_.put(node, mesh_.moved(surface_, node, filled.x[n + i]));
-    filled.x[n + i] = point(node);
-  }
-  doubtful_.resize(mesh_.mesh.points.size(), 0);
-  for (int k = 0; k < filling.quads; ++k)
-    for (int j = 0; j < 4; ++j) quads[k][j] = filled.nodes[filling.corners[k][j]];
-  const std::span<const Quad> after(quads.data(), filling.quads);
-  if (filled.worst() > floor && !too_long(before, after) && topology_.replace(old, after)) {
-    drift_ += filling.quads - patch.count;
-    for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
-    return true;
-  }
-  for (int i = 0; i < filling.interior; ++i) mesh_.put(filled.nodes[n + i], saved[i]);
-  return false;
-}
-
-void CleanUp::write_back() {
-  std::vector<char> doubtful;
-  for (const int node : EditedMesh::write_back()) doubtful.push_back(doubtful_[node]);
-  doubtful_ = std::move(doubtful);
-}
 
 }  // namespace
 

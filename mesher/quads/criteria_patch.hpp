@@ -3,6 +3,7 @@
 /// Not part of the public interface.
 
 #include <array>
+#include <span>
 
 #include "geometry/base/vector.hpp"
 
@@ -22,6 +23,11 @@ struct QuadObjective {
 /// little of the squared aspect. The fourth powers alone hardly act on corners 20 degrees off.
 QuadObjective measure_objective(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d,
                                 double squareness = 0);
+
+/// The objective of a quad of indices into points.
+inline QuadObjective measure_objective(std::span<const Vector3> points, const std::array<int, 4>& quad) {
+  return measure_objective(points[quad[0]], points[quad[1]], points[quad[2]], points[quad[3]]);
+}
 
 /// A quad whose nodes move along two directions in a fixed plane.
 class FlatQuad {

@@ -9,26 +9,14 @@
 #include "mesher/mesh/quad_geometry.hpp"
 
 namespace quadrille {
-namespace {
-
-double angle_between(const Vector3& from, const Vector3& to, const Vector3& normal) {
-  const double angle = std::atan2(from.cross(to).dot(normal), from.dot(to));
-  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
-}
-
-}  // namespace
 
 EditedMesh::EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context)
     : mesh_(mesh),
       context_(context),
-      topology_(mesh.mesh.quads, mesh.mesh.quad_tags, static_cast<int>(mesh.mesh.points.size()), context),
+      topology_(mesh.mesh.quads, static_cast<int>(mesh.mesh.points.size()), context),
       on_triangle_(mesh.mesh.points.size(), 0) {
   for (const auto& triangle : mesh_.mesh.triangles)
     for (const int node : triangle) on_triangle_[node] = 1;
-  measure_boundary();
-}
-
-void EditedMesh::measure_boundary() {
   angles_.assign(mesh_.mesh.points.size(), 0);
   std::vector<int> fans(mesh_.mesh.points.size(), 0);
   SparseCheck check(context_);
@@ -38,7 +26,8 @@ void EditedMesh::measure_boundary() {
     if (inner(node)) continue;  // its angle is never used
     const int before = topology_.origin(QuadTopology::previous(side));
     const Vector3 forth = point(topology_.end(side)) - point(node), back = point(before) - point(node);
-    angles_[node] += angle_between(forth, back, normal(node));
+    const double angle = std::atan2(forth.cross(back).dot(normal(node)), forth.dot(back));
+    angles_[node] += angle < 0 ? angle + 2 * std::numbers::pi : angle;
     if (topology_.twin(side) < 0) ++fans[node];
   }
   for (std::size_t i = 0; i < angles_.size(); ++i)
@@ -50,10 +39,7 @@ void EditedMesh::measure_boundary() {
 
 double EditedMesh::worst(std::span<const Quad> quads) const {
   double least = 1;
-  for (const Quad& q : quads) {
-    const Vector3 up = normal(q[0]) + normal(q[1]) + normal(q[2]) + normal(q[3]);
-    least = std::min(least, folded_scaled_jacobian(point(q[0]), point(q[1]), point(q[2]), point(q[3]), up));
-  }
+  for (const Quad& quad : quads) least = std::min(least, mesh_.quality(quad));
   return least;
 }
 
@@ -163,13 +149,7 @@ double Filling::worst() const {
 
 int EditedMesh::add_node_like(int donor) {
   const int node = topology_.add_node();
-  // Copy first: the arrays may be reallocated.
-  const Vector3 place = point(donor), up = normal(donor);
-  const Vector2 uv = mesh_.parameters[donor];
-  mesh_.mesh.points.push_back(place);
-  mesh_.normals.push_back(up);
-  mesh_.parameters.push_back(uv);
-  mesh_.fixed.push_back(0);
+  mesh_.add(mesh_.place_of(donor), false);
   if (!mesh_.boundary_angles.empty()) mesh_.boundary_angles.push_back(0);
   on_triangle_.push_back(0);
   angles_.push_back(0);
@@ -184,10 +164,7 @@ std::vector<int> EditedMesh::write_back() {
     check();
     number[node] = static_cast<int>(kept.size());
     kept.push_back(node);
-    result.mesh.points.push_back(mesh_.mesh.points[node]);
-    result.parameters.push_back(mesh_.parameters[node]);
-    result.normals.push_back(mesh_.normals[node]);
-    result.fixed.push_back(mesh_.fixed[node]);
+    result.add(mesh_.place_of(node), mesh_.fixed[node] != 0);
     if (!mesh_.boundary_angles.empty()) result.boundary_angles.push_back(mesh_.boundary_angles[node]);
   };
   for (int node = 0; node < node_count(); ++node)
@@ -199,11 +176,9 @@ std::vector<int> EditedMesh::write_back() {
     if (!topology_.alive(quad)) continue;
     const Quad& q = topology_.quad(quad);
     result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
-    if (topology_.tagged()) result.mesh.quad_tags.push_back(topology_.tag(quad));
   }
   for (auto& triangle : mesh_.mesh.triangles)
     result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
-  result.mesh.triangle_tags = std::move(mesh_.mesh.triangle_tags);
   context_.check();
   mesh_ = std::move(result);
   return kept;

@@ -65,6 +65,7 @@ class EditedMesh {
   QuadTopology& topology() { return topology_; }
   const QuadTopology& topology() const { return topology_; }
   int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
+  const std::vector<Vector3>& points() const { return mesh_.mesh.points; }
   const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
   const Vector3& normal(int node) const { return mesh_.normals[node]; }
   /// Whether the node may move and its quads close around it.
@@ -110,9 +111,6 @@ class EditedMesh {
   /// (nodes) radians: the angle that the quads of a node fill, for nodes that are not inner; the mean if it
   /// has several fans. Where it has one, SurfaceMesh::boundary_angles takes precedence.
   std::vector<double> angles_;
-
- private:
-  void measure_boundary();
 };
 
 }  // namespace quadrille

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include "mesher/faces/loop_filling.hpp"
-#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/mending.hpp"
@@ -60,19 +58,13 @@ void clean(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& o
 
 void mend_folded(FaceQuads& quads, const MeshSurface& surface, ExecutionContext& context) {
   const StageTimer timer(context, Stage::improve);
-  if (!is_folded(quads.surface_mesh.mesh)) return;
+  if (!has_inverted_quads(quads.surface_mesh.mesh)) return;
   std::vector<char> changed;
   mend_quads(quads.surface_mesh, surface, folded_objective, -1, changed, context);
   keep_poles(quads);
 }
 
 }  // namespace
-
-bool is_folded(const QuadMesh& mesh) {
-  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return quad_scaled_jacobian(mesh.points, q) <= no_jacobian;
-  });
-}
 
 void smooth(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context) {

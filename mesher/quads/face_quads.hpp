@@ -31,7 +31,4 @@ FaceQuads make_quads(FaceTriangulation triangulation, const MeshSurface& surface
 void smooth(FaceQuads& quads, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context);
 
-/// Whether a quad is inverted.
-bool is_folded(const QuadMesh& mesh);
-
 }  // namespace quadrille

@@ -1,24 +1,30 @@
 #pragma once
 /// Improving quads: topological clean-up and smoothing on a surface.
 
+#include <array>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/vector.hpp"
 #include "geometry/surfaces/mesh_surface.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/quads/improve_options.hpp"
 
 namespace quadrille {
 
-/// The plane z = 0, or any set of points in it.
+/// A plane of constant z, seen from above, or any set of points in it.
 class PlanarSurface : public MeshSurface {
  public:
+  explicit PlanarSurface(double z = 0) : z_(z) {}
   Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
     uv = {target.x(), target.y()};
     normal = {0, 0, 1};
-    return {target.x(), target.y(), 0};
+    return {target.x(), target.y(), z_};
   }
+
+ private:
+  double z_;
 };
 
 /// Where a node is on its surface.
@@ -29,7 +35,7 @@ struct SurfacePlace {
 
 /// A quad mesh of one face while it is improved.
 struct SurfaceMesh {
-  QuadMesh mesh;
+  QuadMesh mesh;                    ///< without tags
   std::vector<Vector2> parameters;  ///< (n) surface parameters of each point
   std::vector<Vector3> normals;     ///< (n) unit surface normals at each point
   std::vector<char> fixed;          ///< (n) 1 = on the boundary: never moved, merged or removed
@@ -39,10 +45,22 @@ struct SurfaceMesh {
   std::vector<double> boundary_angles;
 
   SurfacePlace place_of(int node) const { return {mesh.points[node], normals[node], parameters[node]}; }
+  void add(const SurfacePlace& place, bool is_fixed) {
+    mesh.points.push_back(place.point);
+    normals.push_back(place.normal);
+    parameters.push_back(place.uv);
+    fixed.push_back(is_fixed);
+  }
   void put(int node, const SurfacePlace& place) {
     mesh.points[node] = place.point;
     normals[node] = place.normal;
     parameters[node] = place.uv;
+  }
+  /// The scaled Jacobian of a quad, negative where it is folded against the normals at its corners.
+  double quality(const std::array<int, 4>& quad) const {
+    const auto& [a, b, c, d] = quad;
+    const auto& p = mesh.points;
+    return folded_scaled_jacobian(p[a], p[b], p[c], p[d], normals[a] + normals[b] + normals[c] + normals[d]);
   }
   /// The place nearest to a target, searched from a node's place.
   SurfacePlace moved(const MeshSurface& surface, int node, const Vector3& target) const {

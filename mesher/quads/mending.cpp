@@ -70,8 +70,7 @@ class Trial {
   void measure() {
     values_.resize(quads.size());
     for (std::size_t i = 0; i < quads.size(); ++i) {
-      const Quad& q = quads[i];
-      const QuadObjective of = measure_objective(points[q[0]], points[q[1]], points[q[2]], points[q[3]]);
+      const QuadObjective of = measure_objective({points.data(), points.size()}, quads[i]);
       values_[i] = judge(of, of.normal.dot(up_) > 0);
     }
   }
@@ -210,10 +209,7 @@ class Objectives {
     const QuadTopology& topology = mesh_.topology();
     if (known_.size() < static_cast<std::size_t>(topology.size())) known_.resize(topology.size());
     std::optional<QuadObjective>& known = known_[quad];
-    if (!known) {
-      const Quad& q = topology.quad(quad);
-      known = measure_objective(mesh_.point(q[0]), mesh_.point(q[1]), mesh_.point(q[2]), mesh_.point(q[3]));
-    }
+    if (!known) known = measure_objective(mesh_.points(), topology.quad(quad));
     return *known;
   }
 

@@ -8,8 +8,6 @@
 #include <span>
 #include <utility>
 
-#include "mesher/quads/spokes.hpp"
-
 namespace quadrille {
 namespace {
 
@@ -19,6 +17,38 @@ using Chain = std::vector<int>;  ///< the nodes of a side, both ends included
 int segments_of(const Chain& chain) {
   return static_cast<int>(chain.size()) - 1;
 }
+
+std::vector<int> segments_of(const std::vector<Chain>& sides) {
+  std::vector<int> result;
+  result.reserve(sides.size());
+  for (const Chain& side : sides) result.push_back(segments_of(side));
+  return result;
+}
+
+/// How three or five sides are filled around a point. A row leads from there to each side; `before` has the
+/// number of segments from the first corner of the side to the row.
+struct Spokes {
+  std::array<int, 5> before{};
+  int least = 0;  ///< least of `before`; below 1 if there is no such filling
+
+  /// \param sides numbers of segments. An alternating sum over every second side gives twice `before`.
+  explicit Spokes(std::span<const int> sides) {
+    const int n = static_cast<int>(sides.size());
+    for (int i = 0; i < n; ++i) {
+      int sum = 0;
+      for (int k = 0; k < n; ++k) sum += (k % 2 == 0 ? 1 : -1) * sides[(i + 2 * k) % n];
+      before[i] = sum % 2 == 0 ? sum / 2 : 0;
+    }
+    least = *std::min_element(before.begin(), before.begin() + n);
+  }
+
+  int quads(std::span<const int> sides) const {
+    int sum = 0;
+    for (std::size_t i = 0, last = sides.size() - 1; i < sides.size(); last = i++)
+      sum += before[i] * (sides[last] - before[last]);
+    return sum;
+  }
+};
 
 bool is_grid(std::span<const int> sides) {
   return sides.size() == 4 && sides[0] == sides[2] && sides[1] == sides[3];
@@ -38,22 +68,27 @@ class Filler {
     return result;
   }
 
+  /// Fills four sides that a grid fits, or three or five that Spokes allow.
   /// \param sides in order, each ends where the next one begins
   void fill(const std::vector<Chain>& sides) {
     const int n = static_cast<int>(sides.size());
     if (n == 4) return grid(sides[0], sides[1], sides[2], sides[3]);
     ++filling_.irregular;
-    fill_around_point(
-        sides,
-        [&](const Chain& feet) {
-          Vector3 middle = Vector3::Zero();
-          for (const int foot : feet) middle += at(foot) / n;
-          return add(middle);
-        },
-        [&](int from, int to, int segments) { return row(from, to, segments); },
-        [&](const Chain& south, const Chain& east, const Chain& north, const Chain& west) {
-          grid(south, east, north, west);
-        });
+    const std::array<int, 5> before = Spokes(segments_of(sides)).before;
+    Chain feet;
+    Vector3 middle = Vector3::Zero();
+    for (int i = 0; i < n; ++i) {
+      feet.push_back(sides[i][before[i]]);
+      middle += at(feet.back()) / n;
+    }
+    const int center = add(middle);
+    std::vector<Chain> rows;
+    rows.reserve(n);
+    for (int i = 0; i < n; ++i) rows.push_back(row(feet[i], center, before[(i + 1) % n]));
+    for (int i = 0, last = n - 1; i < n; last = i++)
+      grid(Chain(sides[i].begin(), sides[i].begin() + before[i] + 1), rows[i],
+           Chain(rows[last].rbegin(), rows[last].rend()),
+           Chain(sides[last].begin() + before[last], sides[last].end()));
   }
 
   PolygonFilling take() { return std::move(filling_); }
@@ -102,8 +137,7 @@ struct Cut {
 class PolygonCutter {
  public:
   PolygonCutter(const std::vector<Vector3>& places, const std::vector<Chain>& sides)
-      : places_(places), sides_(sides), count_(static_cast<int>(sides.size())) {
-    for (const Chain& side : sides_) lengths_.push_back(segments_of(side));
+      : places_(places), sides_(sides), count_(static_cast<int>(sides.size())), lengths_(segments_of(sides)) {
     const std::size_t n = places_.size();
     for (std::size_t i = 0; i < n; ++i)
       mean_ += (places_[i] - places_[(i + 1) % n]).norm() / static_cast<double>(n);
@@ -306,9 +340,7 @@ bool fill_polygon(const std::vector<Vector3>& outline, const std::vector<int>& c
   const int n = static_cast<int>(corners.size()), nodes = static_cast<int>(outline.size());
   if (n < 2 || n > 6) return false;
   const std::vector<Chain> sides = sides_between(corners, nodes, 1);
-  std::vector<int> lengths;
-  lengths.reserve(sides.size());
-  for (const Chain& side : sides) lengths.push_back(segments_of(side));
+  const std::vector<int> lengths = segments_of(sides);
   const auto allowed = [&](int quads) { return quads >= limits.least_quads && quads <= limits.most_quads; };
   const auto offer = [&](PolygonFilling filling) {
     relax(filling, outline.size());

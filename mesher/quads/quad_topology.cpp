@@ -24,20 +24,13 @@ bool contains(std::span<const int> quads, int quad) {
 
 }  // namespace
 
-QuadTopology::QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
-                           const ExecutionContext& context)
-    : quads_(std::move(quads)), tags_(tags) {
+QuadTopology::QuadTopology(std::vector<Quad> quads, int node_count, const ExecutionContext& context)
+    : quads_(std::move(quads)), sides_(node_count, -1) {
   context.check();
-  sides_.assign(node_count, -1);
-  link(context);
-}
-
-void QuadTopology::link(const ExecutionContext& context) {
   SparseCheck check(context);
   twins_.assign(4 * quads_.size(), boundary);
   const auto join = [&](int, int, std::span<const int> same) {
     if (same.size() != 2 || origin(same[0]) == origin(same[1])) return;
-    if (tag(same[0] >> 2) != tag(same[1] >> 2)) return;
     twins_[same[0]] = same[1];
     twins_[same[1]] = same[0];
   };
@@ -90,7 +83,7 @@ bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) 
     const Fan round = fan(start);
     int at = round.first;
     for (int i = 0; i < round.quads; ++i, at = rotate(at)) {
-      if (std::find(patch.begin(), patch.end(), at >> 2) != patch.end()) continue;
+      if (contains(patch, at >> 2)) continue;
       if (end(at) == to || origin(previous(at)) == to) return true;
     }
     return false;
@@ -156,7 +149,6 @@ int QuadTopology::free_slot() {
   }
   quads_.push_back({});
   twins_.resize(twins_.size() + 4, boundary);
-  if (tagged()) tags_.push_back(0);
   return size() - 1;
 }
 
@@ -178,13 +170,11 @@ bool QuadTopology::replace(std::span<const int> old_quads, std::span<const Quad>
   }
 
   // Nothing can fail from here on.
-  const int patch_tag = tag(old_quads[0]);
   take_out(old_quads);
   std::array<int, max_patch> slots;
   for (std::size_t i = 0; i < new_quads.size(); ++i) {
     slots[i] = i < old_quads.size() ? old_quads[i] : free_slot();
     quads_[slots[i]] = new_quads[i];
-    if (tagged()) tags_[slots[i]] = patch_tag;
   }
   for (std::size_t i = new_quads.size(); i < old_quads.size(); ++i) dead_.push_back(old_quads[i]);
   for (int i = 0; i < count; ++i) {

@@ -6,13 +6,12 @@
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
-#include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
 
 /// The quads of a mesh and which side meets which. Side k of quad q, from its node k to node k + 1, is number
-/// 4 * q + k. A side's twin is the same side seen from the quad beyond it; -1 on the boundary, between tags,
-/// and where the mesh is not manifold.
+/// 4 * q + k. A side's twin is the same side seen from the quad beyond it; -1 on the boundary and where the
+/// mesh is not manifold.
 class QuadTopology {
  public:
   using Quad = std::array<int, 4>;
@@ -25,15 +24,11 @@ class QuadTopology {
     bool closed = false;
   };
 
-  /// \param tags one per quad, or empty; quads of different tags do not count as neighbors.
-  QuadTopology(std::vector<Quad> quads, const std::vector<int>& tags, int node_count,
-               const ExecutionContext& context = {});
+  QuadTopology(std::vector<Quad> quads, int node_count, const ExecutionContext& context = {});
 
   int size() const { return static_cast<int>(quads_.size()); }  ///< slots, dead ones included
   bool alive(int quad) const { return quads_[quad][0] >= 0; }
   const Quad& quad(int quad) const { return quads_[quad]; }
-  int tag(int quad) const { return tags_.empty() ? 0 : tags_[quad]; }
-  bool tagged() const { return !tags_.empty(); }
 
   int twin(int side) const { return twins_[side]; }
   int origin(int side) const { return quads_[side >> 2][side & 3]; }
@@ -88,7 +83,6 @@ class QuadTopology {
     bool outer;   ///< whether an outer side of the old quads runs along it
   };
 
-  void link(const ExecutionContext& context);
   /// Sets `outer` and `outside`. False unless each outer side of the patch is found once among the new sides.
   bool find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const;
   /// Sets `twin` of all other sides. False unless they join each other in pairs.
@@ -105,8 +99,7 @@ class QuadTopology {
   std::vector<int> sides_;
   std::vector<int> uses_;       ///< quads of each node
   std::vector<char> openings_;  ///< open fans of each node; replacing patches never changes them
-  std::vector<int> tags_;
-  std::vector<int> dead_;  ///< slots to reuse
+  std::vector<int> dead_;       ///< slots to reuse
 };
 
 }  // namespace quadrille

@@ -45,13 +45,11 @@ class RingJoiner {
 
  private:
   int add(const HoleRings::Node& node, bool fixed) {
-    return whole_.add(node.point, node.uv, surface_.normal(node.uv), fixed, false);
+    return whole_.add({node.point, surface_.normal(node.uv), node.uv}, fixed, false);
   }
 
   void copy(int i, bool fixed) {
-    const auto& old = inside_.surface_mesh;
-    renumbered_[i] =
-        whole_.add(old.mesh.points[i], old.parameters[i], old.normals[i], fixed, inside_.pole[i]);
+    renumbered_[i] = whole_.add(inside_.surface_mesh.place_of(i), fixed, inside_.pole[i] != 0);
   }
 
   /// Finds the point inside of each node on the outermost lines, by its number in HoleRings. Where such a

@@ -80,18 +80,13 @@ struct SmoothedMesh {
   void measure_all() {
     for (int i = 0; i < static_cast<int>(quads.size()); ++i) {
       check(i);
-      quality[i] = measure(i);
+      quality[i] = nodes.quality(quads[i]);
     }
   }
 
-  double measure(int quad) const {
-    const auto& q = quads[quad];
-    const Vector3 normal = normals[q[0]] + normals[q[1]] + normals[q[2]] + normals[q[3]];
-    return folded_scaled_jacobian(points[q[0]], points[q[1]], points[q[2]], points[q[3]], normal);
-  }
-
   void measure_round(int node) {
-    for (const Side corner : corners[node]) quality[element_of(corner)] = measure(element_of(corner));
+    for (const Side corner : corners[node])
+      quality[element_of(corner)] = nodes.quality(quads[element_of(corner)]);
   }
 
   double least_round(int node) const {
@@ -100,30 +95,36 @@ struct SmoothedMesh {
     return least;
   }
 
+  /// The other corners of a quad around a node, counter-clockwise from the node.
+  struct Others {
+    const Vector3 &next, &opposite, &previous;
+  };
+  Others beside(Side corner) const {
+    const auto& q = quads[element_of(corner)];
+    const int k = index_of(corner);
+    return {points[q[(k + 1) & 3]], points[q[(k + 2) & 3]], points[q[(k + 3) & 3]]};
+  }
+
   /// Least scaled Jacobian around the node if it were at `p`.
   double least_at(int node, const Vector3& p, const Vector3& normal) const {
     double least = 1;
     for (const Side corner : corners[node]) {
-      const auto& q = quads[element_of(corner)];
-      const int j = index_of(corner);
-      least = std::min(least, folded_scaled_jacobian(p, points[q[(j + 1) & 3]], points[q[(j + 2) & 3]],
-                                                     points[q[(j + 3) & 3]], normal));
+      const auto [b, c, d] = beside(corner);
+      least = std::min(least, folded_scaled_jacobian(p, b, c, d, normal));
     }
     return least;
   }
 
   double mean_side(int node) const {
     double sum = 0;
-    for (const Side corner : corners[node])
-      sum += (points[quads[element_of(corner)][(index_of(corner) + 1) & 3]] - points[node]).norm();
+    for (const Side corner : corners[node]) sum += (beside(corner).next - points[node]).norm();
     return sum / static_cast<double>(std::max<std::size_t>(corners[node].size(), 1));
   }
 
   /// The mean of the neighbors, in the tangent plane of the node.
   Vector3 middle_of(int node) const {
     Vector3 sum = Vector3::Zero();
-    for (const Side corner : corners[node])
-      sum += points[quads[element_of(corner)][(index_of(corner) + 1) & 3]];
+    for (const Side corner : corners[node]) sum += beside(corner).next;
     const Vector3 shift = sum / static_cast<double>(corners[node].size()) - points[node];
     return points[node] + shift - normals[node].dot(shift) * normals[node];
   }
@@ -232,10 +233,8 @@ class Sweeps {
   /// \return whether the plan has all quads of the node
   bool draw(int node, TangentPlan& plan) const {
     for (const Side corner : mesh_.corners[node]) {
-      const auto& q = mesh_.quads[element_of(corner)];
-      const int j = index_of(corner);
-      if (!plan.add(mesh_.points[q[(j + 1) & 3]], mesh_.points[q[(j + 2) & 3]], mesh_.points[q[(j + 3) & 3]]))
-        return false;
+      const auto [b, c, d] = mesh_.beside(corner);
+      if (!plan.add(b, c, d)) return false;
     }
     return true;
   }
@@ -301,9 +300,7 @@ double tangle_at(const SmoothedMesh& m, int node, const Vector3& p, const Vector
   double sum = 0;
   const double wanted = 0.02 * size * size;
   for (const Side corner : m.corners[node]) {
-    const auto& q = m.quads[element_of(corner)];
-    const int j = index_of(corner);
-    const Vector3 &b = m.points[q[(j + 1) & 3]], &c = m.points[q[(j + 2) & 3]], &d = m.points[q[(j + 3) & 3]];
+    const auto [b, c, d] = m.beside(corner);
     sum += std::min(0.0, (b - p).cross(d - p).dot(normal) - wanted);
     sum += std::min(0.0, (c - b).cross(p - b).dot(normal) - wanted);
     sum += std::min(0.0, (p - d).cross(c - d).dot(normal) - wanted);
@@ -318,7 +315,7 @@ double merit_at(const SmoothedMesh& m, int node, const Vector3& p, const Vector3
   if (least <= 0) return least;
   double shortest = std::numeric_limits<double>::max(), sum = 0;
   for (const Side corner : m.corners[node]) {
-    const double side = (m.points[m.quads[element_of(corner)][(index_of(corner) + 1) & 3]] - p).squaredNorm();
+    const double side = (m.beside(corner).next - p).squaredNorm();
     shortest = std::min(shortest, side);
     sum += std::sqrt(side);
   }
@@ -440,9 +437,7 @@ bool spread_corners(SmoothedMesh& m, int node) {
         {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
   };
   for (const Side corner : m.corners[node]) {
-    const auto& q = m.quads[element_of(corner)];
-    const int j = index_of(corner);
-    const Vector3 &b = m.points[q[(j + 1) & 3]], &c = m.points[q[(j + 2) & 3]], &d = m.points[q[(j + 3) & 3]];
+    const auto [b, c, d] = m.beside(corner);
     add(d, origin, b, normal.cross(b - d));
     add(origin, b, c, normal.cross(c - b));
     add(c, d, origin, normal.cross(d - c));

@@ -35,26 +35,24 @@ class Subdivider {
 
  private:
   void copy_point(int i) {
-    const auto& old = coarse_.surface_mesh;
-    renumbered_[i] =
-        fine_.add(old.mesh.points[i], old.parameters[i], old.normals[i], old.fixed[i], coarse_.pole[i]);
+    const SurfaceMesh& old = coarse_.surface_mesh;
+    renumbered_[i] = fine_.add(old.place_of(i), old.fixed[i] != 0, coarse_.pole[i] != 0);
   }
 
   void add_boundary_middle(const FaceBoundary::Segment& segment) {
     Vector2 uv = segment.middle_uv;
     Vector3 normal;
     surface_.move(uv, segment.middle_point, normal);
-    const int point = fine_.add(segment.middle_point, segment.middle_uv, normal, true, false);
+    const int point = fine_.add({segment.middle_point, normal, segment.middle_uv}, true, false);
     fine_.nodes.push_back(segment.middle_node);
     middles_.emplace(side_key(segment.a, segment.b), point);
   }
 
   /// Adds the surface point near a target, searched from between some parameters.
   int add_near(const Vector3& target, std::span<const Vector2> from) {
-    Vector2 uv = surface_.between(from);
-    Vector3 normal;
-    const Vector3 point = surface_.move(uv, target, normal);
-    return fine_.add(point, uv, normal, false, false);
+    SurfacePlace place{target, Vector3::Zero(), surface_.between(from)};
+    place.point = surface_.move(place.uv, target, place.normal);
+    return fine_.add(place, false, false);
   }
 
   int add_middle(int a, int b) {
@@ -86,8 +84,8 @@ class Subdivider {
   void improve_center(const std::array<int, n>& element, const std::array<int, n>& middles, int center) {
     const int fixed = static_cast<int>(fine_.nodes.size());
     if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
-    auto& fine = fine_.surface_mesh;
-    auto& points = fine.mesh.points;
+    SurfaceMesh& fine = fine_.surface_mesh;
+    const auto& points = fine.mesh.points;
     const auto worst = [&](const Vector3& at) {
       double result = 1;
       for (std::size_t k = 0; k < n; ++k) {
@@ -104,13 +102,8 @@ class Subdivider {
     constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
     for (std::size_t k = 0; k < n; ++k)
       target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
-    Vector2 uv = fine.parameters[center];
-    Vector3 normal;
-    const Vector3 at = surface_.move(uv, target, normal);
-    if (!(worst(at) > before)) return;
-    points[center] = at;
-    fine.parameters[center] = uv;
-    fine.normals[center] = normal;
+    const SurfacePlace place = fine.moved(surface_, center, target);
+    if (worst(place.point) > before) fine.put(center, place);
   }
 
   int middle(int a, int b) {
@@ -193,11 +186,8 @@ double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& 
 
 }  // namespace
 
-int FaceQuads::add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole) {
-  surface_mesh.mesh.points.push_back(point);
-  surface_mesh.parameters.push_back(uv);
-  surface_mesh.normals.push_back(normal);
-  surface_mesh.fixed.push_back(fixed);
+int FaceQuads::add(const SurfacePlace& place, bool fixed, bool is_pole) {
+  surface_mesh.add(place, fixed);
   pole.push_back(is_pole);
   return static_cast<int>(pole.size()) - 1;
 }

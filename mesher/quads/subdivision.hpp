@@ -15,7 +15,7 @@ struct FaceQuads {
   std::vector<int> nodes;    ///< (fixed points) index into BoundaryNodes::points, or a HoleRings::node()
 
   /// \return the index of the new point.
-  int add(const Vector3& point, const Vector2& uv, const Vector3& normal, bool fixed, bool is_pole);
+  int add(const SurfacePlace& place, bool fixed, bool is_pole);
 };
 
 /// Largest width of a gap that a single row of quads spans, in lengths of the segments on its sides.

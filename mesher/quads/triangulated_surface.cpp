@@ -3,28 +3,24 @@
 #include "mesher/quads/triangulated_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 
 namespace quadrille {
 
 TriangulatedSurface::TriangulatedSurface(TriangleMesh patch)
-    : points_(std::move(patch.points)),
-      triangles_(std::move(patch.triangles)),
-      twins_(triangles_.size(), {-1, -1, -1}),
-      normals_(points_.size(), Vector3::Zero()),
-      triangle_at_(points_.size(), -1),
-      boundary_(points_.size(), 0) {
-  TriangleMesh untagged;
-  untagged.points.swap(points_);
-  untagged.triangles.swap(triangles_);
-  join_twins(untagged, [this](Side a, Side b) {
+    : twins_(patch.triangles.size(), {-1, -1, -1}),
+      normals_(patch.points.size(), Vector3::Zero()),
+      triangle_at_(patch.points.size(), -1),
+      boundary_(patch.points.size(), 0) {
+  patch.tags.clear();
+  join_twins(patch, [this](Side a, Side b) {
     twins_[triangle_of(a)][index_of(a)] = b;
     twins_[triangle_of(b)][index_of(b)] = a;
   });
-  untagged.points.swap(points_);
-  untagged.triangles.swap(triangles_);
+  points_ = std::move(patch.points);
+  triangles_ = std::move(patch.triangles);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     const Vector3 area = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
@@ -110,52 +106,11 @@ Vector3 TriangulatedSurface::move(Vector2& uv, const Vector3& target, Vector3& n
 
 namespace {
 
-/// A plane z = constant, seen from above.
-class LevelPlane : public MeshSurface {
- public:
-  explicit LevelPlane(double z) : z_(z) {}
-  Vector3 move(Vector2& uv, const Vector3& target, Vector3& normal) const override {
-    uv = {target.x(), target.y()};
-    normal = {0, 0, 1};
-    return {target.x(), target.y(), z_};
-  }
-
- private:
-  double z_;
-};
-
 /// The elements of one tag, with their own numbering of the points.
 struct Patch {
   TriangleMesh triangulation;
   QuadMesh quads;
   std::vector<int> global;  ///< (points of the patch) index of the point in the whole
-};
-
-/// Numbers the points of a patch in the order in which they come.
-class Localiser {
- public:
-  Localiser(const std::vector<Vector3>& points, std::vector<int>& local) : points_(points), local_(local) {}
-
-  template <std::size_t N>
-  std::array<int, N> operator()(std::array<int, N> corners, Patch& patch) {
-    for (int& v : corners) {
-      if (local_[v] < 0) {
-        local_[v] = static_cast<int>(patch.global.size());
-        patch.global.push_back(v);
-        patch.triangulation.points.push_back(points_[v]);
-      }
-      v = local_[v];
-    }
-    return corners;
-  }
-
-  void forget(const Patch& patch) {
-    for (int v : patch.global) local_[v] = -1;
-  }
-
- private:
-  const std::vector<Vector3>& points_;
-  std::vector<int>& local_;
 };
 
 /// The elements of each tag, in the order of the mesh.
@@ -200,7 +155,7 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
   const TriangulatedSurface triangulated(patch.triangulation);
   std::unique_ptr<MeshSurface> level;
   if (is_level(patch.triangulation))
-    level = std::make_unique<LevelPlane>(patch.triangulation.points.front().z());
+    level = std::make_unique<PlanarSurface>(patch.triangulation.points.front().z());
   const MeshSurface& surface = level ? *level : static_cast<const MeshSurface&>(triangulated);
   SurfaceMesh mesh;
   mesh.mesh = std::move(patch.quads);
@@ -217,7 +172,7 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
   } else {
     // Without clean-up nothing is renumbered: all points are where they were.
     fixed.resize(mesh.mesh.points.size());
-    for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] = static_cast<int>(v);
+    std::iota(fixed.begin(), fixed.end(), 0);
   }
   smooth(mesh, surface, options, context);
   return mesh;
@@ -228,25 +183,30 @@ SurfaceMesh improve_patch(Patch& patch, const std::vector<char>& shared, const I
 QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, const ImproveOptions& options,
                     std::vector<int>& renumbered, ExecutionContext& context) {
   QuadMesh result;
-  std::vector<int> local(triangulation.points.size(), -1);
+  std::vector<int> local(triangulation.points.size(), -1);  // number in the patch at hand
   renumbered.assign(triangulation.points.size(), -1);
   const auto triangles_by_tag = by_tag(triangulation.triangles, triangulation.tags);
-  const auto quads_by_tag = by_tag(quads.quads, quads.quad_tags);
-  const auto left_by_tag = by_tag(quads.triangles, quads.triangle_tags);
+  auto quads_by_tag = by_tag(quads.quads, quads.quad_tags);
+  auto left_by_tag = by_tag(quads.triangles, quads.triangle_tags);
   const bool tagged = !triangulation.tags.empty();
   const std::vector<char> shared = points_that_stay(triangulation);
-  Localiser localise(triangulation.points, local);
   for (const auto& [tag, members] : triangles_by_tag) {
     context.check();
     Patch patch;
-    for (int t : members)
-      patch.triangulation.triangles.push_back(localise(triangulation.triangles[t], patch));
-    if (const auto found = quads_by_tag.find(tag); found != quads_by_tag.end()) {
-      for (int q : found->second) patch.quads.quads.push_back(localise(quads.quads[q], patch));
-    }
-    if (const auto found = left_by_tag.find(tag); found != left_by_tag.end()) {
-      for (int t : found->second) patch.quads.triangles.push_back(localise(quads.triangles[t], patch));
-    }
+    const auto localise = [&](auto corners) {  // points are numbered in the order in which they come
+      for (int& v : corners) {
+        if (local[v] < 0) {
+          local[v] = static_cast<int>(patch.global.size());
+          patch.global.push_back(v);
+          patch.triangulation.points.push_back(triangulation.points[v]);
+        }
+        v = local[v];
+      }
+      return corners;
+    };
+    for (int t : members) patch.triangulation.triangles.push_back(localise(triangulation.triangles[t]));
+    for (int q : quads_by_tag[tag]) patch.quads.quads.push_back(localise(quads.quads[q]));
+    for (int t : left_by_tag[tag]) patch.quads.triangles.push_back(localise(quads.triangles[t]));
     std::vector<int> fixed;
     const SurfaceMesh improved = improve_patch(patch, shared, options, fixed, context);
     // The fixed points come first, and patches share them; the others are the patch's own.
@@ -272,7 +232,7 @@ QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, co
       result.quad_tags.resize(result.quads.size(), tag);
       result.triangle_tags.resize(result.triangles.size(), tag);
     }
-    localise.forget(patch);
+    for (const int v : patch.global) local[v] = -1;
   }
   return result;
 }

@@ -24,6 +24,7 @@ class TriangulatedSurface : public MeshSurface {
   /// Parameters of a point of the patch; the point must belong to a triangle.
   Vector2 parameters_of(int point) const { return {triangle_at_[point], 0}; }
   const Vector3& normal_of(int point) const { return normals_[point]; }
+  const Vector3& corner(std::size_t triangle, int k) const { return points_[triangles_[triangle][k]]; }
   /// Whether the point lies on the patch's boundary.
   bool on_boundary(int point) const { return boundary_[point] != 0; }
 

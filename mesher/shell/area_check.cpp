@@ -43,9 +43,10 @@ class FlatLoss {
  public:
   FlatLoss(const CadShape& shape, const ShellMesh& mesh, const FaceFlags& faces)
       : shape_(shape), mesh_(mesh), losses_(faces.size()) {
-    for (const auto& segment : mesh.segments) ++segments_of_[segment.edge];
-    for (const auto& segment : mesh.segments)
+    for (const auto& segment : mesh.segments) {
+      ++segments_of_[segment.edge];
       edges_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
+    }
     for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
       if (!faces[FaceId::from_number(mesh.quad_faces[i])]) continue;
       for (int k = 0; k < 4; ++k) sides_[key(i, k)].push_back(i);

@@ -79,12 +79,11 @@ class Assembler {
   }
 
   void add_faces() {
-    IdVector<FaceId, std::size_t> first_point(faces_.size());
     std::size_t points = mesh_.points.size();
     numbering_.first_quad.assign(faces_.size() + 1, 0);
     std::size_t quads = 0;
     for (const FaceId face : faces_.ids()) {
-      first_point[face] = points;
+      first_point_[face] = points;
       numbering_.first_quad[face.index()] = quads;
       if (!faces_[face]) continue;
       points += faces_[face]->points.size() - faces_[face]->nodes.size();
@@ -94,10 +93,10 @@ class Assembler {
     mesh_.points.resize(points);
     mesh_.quads.resize(quads);
     mesh_.quad_faces.resize(quads);
-    for_each_face([&](FaceId face) { add_face(face, first_point[face]); });
+    for_each_face([&](FaceId face) { add_face(face); });
   }
 
-  void add_face(FaceId id, std::size_t first_point) {
+  void add_face(FaceId id) {
     const FaceMesh& face = *faces_[id];
     const std::size_t fixed = face.nodes.size();
     SparseCheck check(context_);
@@ -105,7 +104,7 @@ class Assembler {
     for (std::size_t i = 0; i < fixed; ++i) global[i] = numbering_.nodes[face.nodes[i]];
     for (std::size_t i = fixed; i < face.points.size(); ++i) {
       check();
-      const std::size_t node = first_point + i - fixed;
+      const std::size_t node = first_point_[id] + i - fixed;
       global[i] = static_cast<int>(node);
       mesh_.points[node] = face.points[i];
     }
@@ -133,16 +132,12 @@ class Assembler {
   void note_off_surface() {
     for (const auto& [node, distance] : nodes_.off)
       if (numbering_.nodes[node] >= 0) mesh_.off_geometry.push_back({numbering_.nodes[node], distance});
-    std::size_t next = mesh_.points.size();
-    for (const FaceId id : faces_.ids()) {
-      if (faces_[id]) next -= faces_[id]->points.size() - faces_[id]->nodes.size();
-    }
     for (const FaceId id : faces_.ids()) {
       if (!faces_[id]) continue;
       const FaceMesh& face = *faces_[id];
-      for (std::size_t i = face.nodes.size(); i < face.points.size(); ++i, ++next) {
-        if (!face.off.empty() && face.off[i] > 0)
-          mesh_.off_geometry.push_back({static_cast<int>(next), face.off[i]});
+      for (std::size_t i = face.nodes.size(); i < face.off.size(); ++i) {
+        const std::size_t node = first_point_[id] + i - face.nodes.size();
+        if (face.off[i] > 0) mesh_.off_geometry.push_back({static_cast<int>(node), face.off[i]});
       }
     }
   }
@@ -151,6 +146,7 @@ class Assembler {
   const BoundaryNodes& nodes_;
   const FaceMeshes& faces_;
   const ExecutionContext& context_;
+  IdVector<FaceId, std::size_t> first_point_{faces_.size()};  ///< inside the face
   ShellNumbering numbering_;
   ShellMesh mesh_;
 };

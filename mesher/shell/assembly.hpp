@@ -4,7 +4,6 @@
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/shell/midsides.hpp"
-#include "mesher/shell/shell_geometry.hpp"
 
 namespace quadrille {
 

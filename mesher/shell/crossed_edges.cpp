@@ -30,11 +30,6 @@ namespace {
 /// Normals beside a smooth edge differ by at most 10 degrees.
 constexpr double smooth_cosine = 0.985;
 
-bool is_poor(const FaceMesh& mesh, const std::array<int, 4>& quad) {
-  const auto& p = mesh.points;
-  return measure_objective(p[quad[0]], p[quad[1]], p[quad[2]], p[quad[3]]).value > outside_objective;
-}
-
 /// A side of a quad, from corner to corner.
 struct FaceSideUse {
   FaceId face;
@@ -44,19 +39,15 @@ struct FaceSideUse {
 /// Sides by the boundary nodes at their ends, in the direction of the quad.
 class DirectedSides {
  public:
-  static std::uint64_t key(int from, int to) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(from)) << 32 |
-           static_cast<std::uint32_t>(to);
-  }
-  void add(int from, int to, const FaceSideUse& use) { uses_[key(from, to)].push_back(use); }
+  void add(int from, int to, const FaceSideUse& use) { uses_[{from, to}].push_back(use); }
   /// The only side between two nodes in that direction; null if there is none, or more than one.
   const FaceSideUse* find(int from, int to) const {
-    const auto found = uses_.find(key(from, to));
+    const auto found = uses_.find({from, to});
     return found != uses_.end() && found->second.size() == 1 ? &found->second.front() : nullptr;
   }
 
  private:
-  std::unordered_map<std::uint64_t, std::vector<FaceSideUse>> uses_;
+  std::map<std::pair<int, int>, std::vector<FaceSideUse>> uses_;
 };
 
 using Sets = boost::disjoint_sets_with_storage<>;
@@ -118,7 +109,7 @@ class CandidateFinder {
         check();
         const bool is_at_boundary = std::any_of(
             quad.begin(), quad.end(), [&](int p) { return p < static_cast<int>(mesh->nodes.size()); });
-        if (!is_at_boundary || !is_poor(*mesh, quad)) continue;
+        if (!is_at_boundary || !(measure_objective(mesh->points, quad).value > outside_objective)) continue;
         for (const int p : quad)
           if (p < static_cast<int>(mesh->nodes.size())) touched[mesh->nodes[p]] = 1;
       }
@@ -397,11 +388,11 @@ class Splitting {
   /// The mesh of a composite, and which of its quads belong to which face.
   struct Division {
     FaceMesh mesh;
-    std::vector<Vector2> centers;                    // of the quads
-    std::vector<std::vector<std::size_t>> quads_of;  // (members)
-    std::vector<char> is_shared;                     // (points) 1 = quads of several members use it
-    std::vector<int> node;                           // (points) see number_nodes()
-    std::unordered_map<std::uint64_t, Vector3> middles;
+    std::vector<Vector2> centers;                        // of the quads
+    std::vector<std::vector<std::size_t>> quads_of;      // (members)
+    std::vector<char> is_shared;                         // (points) 1 = quads of several members use it
+    std::vector<int> node;                               // (points) see number_nodes()
+    std::unordered_map<std::uint64_t, Vector3> middles;  // of all sides between boundary nodes
   };
 
   static void divide(const CompositeFace& composite, Division& division) {
@@ -494,23 +485,11 @@ class Splitting {
 
   /// Takes their nodes from the edges that are no longer chains of sides.
   void find_suppressed(const CompositeFace& composite, const Division& division) {
-    const std::vector<int>& node = division.node;
-    std::vector<std::uint64_t> sides;
-    for (const auto& quad : division.mesh.quads) {
-      for (int k = 0; k < 4; ++k) {
-        const int from = node[quad[k]], to = node[quad[(k + 1) & 3]];
-        if (from >= 0 && to >= 0) sides.push_back(side_key(from, to));
-      }
-    }
-    std::sort(sides.begin(), sides.end());
     for (const EdgeId id : composite.edges) {
       BoundaryNodes::Edge& edge = nodes_.edges[id];
-      const auto is_side = [&](int a, int b) {
-        return std::binary_search(sides.begin(), sides.end(), side_key(a, b));
-      };
       bool is_whole = true;
       for (int k = 0; is_whole && k < edge.segments(); ++k)
-        is_whole = is_side(edge.nodes[k], edge.nodes[k + 1]);
+        is_whole = division.middles.contains(side_key(edge.nodes[k], edge.nodes[k + 1]));
       if (is_whole) continue;
       edge.nodes.clear();
       edge.parameters.clear();

@@ -13,6 +13,19 @@ namespace quadrille {
 
 namespace {
 
+// Tuned on 57 parts as users have them, at sizes of a 20th, a 60th and a 150th of their diagonals.
+/// A grid is kept without a look at other meshes up to this share of quads outside the limits.
+constexpr double outside_of_grid = 0.02;
+/// The share outside the limits in a grid must fall by this factor with another mesh.
+constexpr double least_fall = 2;
+/// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
+constexpr double most_outside = 0.05;
+/// Quads cut in four are replaced by quads of the final size if there are more than `few` and `too_many`
+/// times those that the sizes request, or if their mean badness exceeds `poor` and falls by the factor
+/// `better`.
+constexpr std::size_t few = 200;
+constexpr double too_many = 1.4, poor = 0.1, better = 0.6;
+
 /// The share of quads outside the usual limits for criteria other than warp. In large meshes a sample of
 /// about a thousand quads is measured.
 double share_outside(const FaceMesh& mesh) {
@@ -43,9 +56,8 @@ bool has_rows(const FaceMesh& grid) {
 double badness(const FaceMesh& mesh) {
   constexpr double fine = 0.5, worst_counted = 10;
   double sum = 0;
-  const auto& p = mesh.points;
-  for (const auto& [a, b, c, d] : mesh.quads)
-    sum += std::clamp(measure_objective(p[a], p[b], p[c], p[d]).value - fine, 0.0, worst_counted);
+  for (const auto& quad : mesh.quads)
+    sum += std::clamp(measure_objective(mesh.points, quad).value - fine, 0.0, worst_counted);
   return sum;
 }
 
@@ -54,23 +66,23 @@ double badness(const FaceMesh& mesh) {
 bool FaceJudge::is_doubtful(const FaceMesh& grid, const FacePlan& plan) {
   outside_ = has_rows(grid) ? share_outside(grid) : 0;
   wasteful_ = !plan.has_divided_edge && wastes_quads(grid, GridWaste::wasteful);
-  return wasteful_ || outside_ > thresholds.outside_of_grid;
+  return wasteful_ || outside_ > outside_of_grid;
 }
 
 bool FaceJudge::replaces_grid(const FaceMesh& other, const FaceMesh& grid) const {
   const double left = share_outside(other);
   const double share = static_cast<double>(other.quads.size()) / static_cast<double>(grid.quads.size());
-  if ((share < 1 ? 1 : thresholds.gain) * left < outside_) return true;
-  return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, thresholds.most_outside / share);
+  if ((share < 1 ? 1 : least_fall) * left < outside_) return true;
+  return wasteful_ && share < GridWaste::fewer && left <= std::max(outside_, most_outside / share);
 }
 
 bool FaceJudge::is_doubtful(const FaceMesh& cut) {
-  cut_wastes_ = cut.quads.size() > thresholds.few && wastes_quads(cut, thresholds.too_many);
-  return cut_wastes_ || badness(cut) >= thresholds.poor * static_cast<double>(cut.quads.size());
+  cut_wastes_ = cut.quads.size() > few && wastes_quads(cut, too_many);
+  return cut_wastes_ || badness(cut) >= poor * static_cast<double>(cut.quads.size());
 }
 
 bool FaceJudge::replaces_cut(const FaceMesh& direct, const FaceMesh& cut) const {
-  return cut_wastes_ || badness(direct) < thresholds.better * badness(cut);
+  return cut_wastes_ || badness(direct) < better * badness(cut);
 }
 
 bool FaceJudge::wastes_quads(const FaceMesh& mesh, double most) {

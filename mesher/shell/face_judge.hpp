@@ -1,30 +1,11 @@
 #pragma once
 /// Compares meshes of one face: which of the candidates is delivered, and which need not be tried. Internal.
 
-#include <array>
-#include <vector>
-
 #include "geometry/base/execution_context.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/shell/face_mesher.hpp"
 
 namespace quadrille {
-
-/// The thresholds of all comparisons. Tuned on 57 parts as users have them, at sizes of a 20th, a 60th and a
-/// 150th of their diagonals.
-struct FaceThresholds {
-  /// A grid is kept without a look at other meshes up to this share of quads outside the limits.
-  double outside_of_grid = 0.02;
-  /// The share outside the limits in a grid must fall by this factor with another mesh.
-  double gain = 2;
-  /// Where a grid is wasteful (GridWaste), the share of quads outside the limits in another mesh.
-  double most_outside = 0.05;
-  /// Quads cut in four are replaced by quads of the final size if there are more than `few` and this many
-  /// times those that the sizes request, or if their mean badness exceeds `poor` and falls by the factor
-  /// `better`.
-  std::size_t few = 200;
-  double too_many = 1.4, poor = 0.1, better = 0.6;
-};
 
 /// Judges meshes of one face.
 class FaceJudge {
@@ -46,7 +27,6 @@ class FaceJudge {
  private:
   bool wastes_quads(const FaceMesh& mesh, double most);
 
-  static constexpr FaceThresholds thresholds{};
   SizingField::Sampler size_at_;
   const FaceSurface& surface_;
   const ExecutionContext& context_;

@@ -12,7 +12,6 @@
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/edges/grid_rows.hpp"
 #include "mesher/faces/face_grid.hpp"
 #include "mesher/faces/face_triangulation.hpp"
 #include "mesher/faces/hole_rings.hpp"
@@ -73,7 +72,8 @@ class FaceMesher {
       std::optional<FaceMesh> mesh = attempt(candidate);
       if (!mesh) continue;
       if (candidate.layout == Layout::grid) {
-        if (!is_doubtful(*mesh)) return std::move(*mesh);
+        // Beside an edge with prescribed spacing, flat rows are wanted.
+        if (plan_.has_kept_edge || !judge_.is_doubtful(*mesh, plan_)) return std::move(*mesh);
         grid = std::move(mesh);
       } else if (!best || judge_.replaces_cut(*mesh, *best)) {
         best = std::move(mesh);
@@ -115,10 +115,6 @@ class FaceMesher {
     }
   }
 
-  bool is_doubtful(const FaceMesh& grid) {
-    return !plan_.has_kept_edge && judge_.is_doubtful(grid, plan_);  // kept: flat rows are wanted
-  }
-
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
     if (!rings_)
       rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings,
@@ -139,12 +135,11 @@ class FaceMesher {
   FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {
     const bool is_halved = candidate.direct && boundary.stride == 2;
     const FaceBoundary segments = is_halved ? halved(boundary) : boundary;
-    FaceQuadsOptions options;
-    options.segments_per_side = segments.stride;
-    options.pair = recipe_.pair;
-    options.clean_up = recipe_.clean_up;
-    options.recombine = options_.recombine;
-    options.improve = options_.improve;
+    const FaceQuadsOptions options{.segments_per_side = segments.stride,
+                                   .pair = recipe_.pair,
+                                   .clean_up = recipe_.clean_up,
+                                   .recombine = options_.recombine,
+                                   .improve = options_.improve};
     FaceQuads quads =
         make_quads(triangulate(segments, enclosed_domain(boundary)), surface_, options, context_);
     if (!quads.surface_mesh.mesh.triangles.empty())

@@ -39,7 +39,15 @@ class NodeGroups {
       groups.insert(groups.end(), more.begin(), more.end());
       std::sort(groups.begin(), groups.end());
     }
-    find_covering();
+    for (std::size_t t = 0; t < work.mesh.triangles.size(); ++t) {
+      for (const int v : work.mesh.triangles[t]) {
+        const auto [found, is_new] = covering_.try_emplace(work.mesh.tags[t], groups_of_[v]);
+        if (is_new || found->second.empty()) continue;
+        std::erase_if(found->second, [&](int group) {
+          return !std::binary_search(groups_of_[v].begin(), groups_of_[v].end(), group);
+        });
+      }
+    }
   }
 
   /// The groups that have all nodes of a face, ascending.
@@ -59,18 +67,6 @@ class NodeGroups {
   }
 
  private:
-  void find_covering() {
-    for (std::size_t t = 0; t < work_.mesh.triangles.size(); ++t) {
-      for (const int v : work_.mesh.triangles[t]) {
-        const auto [found, is_new] = covering_.try_emplace(work_.mesh.tags[t], groups_of_[v]);
-        if (is_new || found->second.empty()) continue;
-        std::erase_if(found->second, [&](int group) {
-          return !std::binary_search(groups_of_[v].begin(), groups_of_[v].end(), group);
-        });
-      }
-    }
-  }
-
   const TriangleInput& work_;
   std::vector<std::vector<int>> groups_of_;   // by point
   std::map<int, std::vector<int>> covering_;  // by face

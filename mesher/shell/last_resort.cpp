@@ -6,7 +6,6 @@
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -27,13 +26,6 @@ namespace {
 
 bool is_near(const FaceMesh& mesh, double reach) {
   return std::all_of(mesh.off.begin(), mesh.off.end(), [&](double off) { return off <= reach; });
-}
-
-template <class Mesh>
-bool has_inverted_quads(const Mesh& mesh) {
-  return std::any_of(mesh.quads.begin(), mesh.quads.end(), [&](const std::array<int, 4>& q) {
-    return !(quad_scaled_jacobian(mesh.points, q) > no_jacobian);
-  });
 }
 
 /// Spans the loops of a face in space: every other boundary node is a corner of triangles, the nodes between

@@ -265,12 +265,6 @@ class Round {
 /// (edges) the parameters of the nodes.
 using EdgeParameters = IdVector<EdgeId, std::vector<double>>;
 
-EdgeParameters parameters_of(const BoundaryNodes& nodes) {
-  EdgeParameters result;
-  for (const auto& edge : nodes.edges) result.push_back(edge.parameters);
-  return result;
-}
-
 /// The slidable nodes: those inside a single edge, unless its spacing is prescribed.
 std::vector<char> slidable_nodes(const BoundaryNodes& nodes, const FaceStates& faces) {
   std::vector<char> uses = nodes.edges_at_nodes();
@@ -595,7 +589,8 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
   if (options.sliding_sweeps <= 0) return {};
   const StageTimer timer(context, Stage::slide);
   context.report(Stage::slide, 0);
-  const EdgeParameters sampled = parameters_of(nodes);
+  EdgeParameters sampled;
+  for (const auto& edge : nodes.edges) sampled.push_back(edge.parameters);
   {
     NodeSliding sliding(shape, nodes, faces, sampled, context);
     sliding.run(options.sliding_sweeps);

@@ -113,10 +113,7 @@ class Finder {
   void index_segments() {
     for (const ShellMesh::Segment& segment : mesh_.segments)
       edge_of_.try_emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
-    for (const CadEdge& edge : shape_.edges) {
-      double& length = length_of_[edge.number];  // pieces add up
-      length += edge.length;
-    }
+    for (const CadEdge& edge : shape_.edges) length_of_[edge.number] += edge.length;  // pieces add up
     for (const auto& corner : mesh_.corners) vertex_at_.emplace(corner.node, corner.vertex);
   }
 
@@ -143,12 +140,9 @@ class Finder {
   void mark_rows(int quad, int k, int rows, std::vector<char>& marks) const {
     for (int row = 0; row < rows && quad >= 0; ++row) {
       marks[quad] = 1;
-      const int opposite = (k + 2) & 3;
-      const std::uint64_t key = side(quad, opposite);
-      if (edge_of_.contains(key)) return;
-      quad = across(quad, opposite);
-      if (quad < 0) return;
-      for (k = 0; side(quad, k) != key;) ++k;
+      k = (k + 2) & 3;
+      if (edge_of_.contains(side(quad, k))) return;
+      std::tie(quad, k) = across(quad, k);
     }
   }
 
@@ -167,15 +161,16 @@ class Finder {
     }
   }
 
-  /// The other quad at a side, among those of faces with poor quads; -1 = none.
-  int across(int quad, int k) const {
+  /// The other quad at a side, among those of faces with poor quads, and its side there; -1 = none.
+  std::pair<int, int> across(int quad, int k) const {
     const std::uint64_t key = side(quad, k);
     for (const Side corner : corners_[mesh_.quads[quad][k]]) {
       const int other = element_of(corner);
-      const bool is_there = side(other, index_of(corner)) == key || side(other, index_of(corner) + 3) == key;
-      if (other != quad && is_there && faces_.contains(mesh_.quad_faces[other])) return other;
+      if (other == quad || !faces_.contains(mesh_.quad_faces[other])) continue;
+      for (const int there : {index_of(corner), (index_of(corner) + 3) & 3})
+        if (side(other, there) == key) return {other, there};
     }
-    return -1;
+    return {-1, -1};
   }
 
   void add(const PoorQuad& poor) {
@@ -221,14 +216,12 @@ class Finder {
       int at = quad, k = (shortest + direction) & 3;
       int& end = result.edges[direction / 2];
       for (int row = 0; row < max_rows && end == 0; ++row) {
-        const std::uint64_t key = side(at, k);
-        if (const auto edge = edge_of_.find(key); edge != edge_of_.end()) {
+        if (const auto edge = edge_of_.find(side(at, k)); edge != edge_of_.end()) {
           end = edge->second;
           break;
         }
-        at = across(at, k);
+        std::tie(at, k) = across(at, k);
         if (at < 0) return std::nullopt;
-        for (k = 0; side(at, k) != key;) ++k;
         result.width += length(at, k + 1);
         k = (k + 2) & 3;
       }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -74,13 +73,9 @@ bool along_chord(Case& job) {
   return any;
 }
 
-bool with_curves_made_anew(Case& job) {
-  job.record.recipe = {.chart = ChartKind::new_curves, .leaves_surface = job.record.recipe.leaves_surface};
-  return true;
-}
-
-bool seen_from_above(Case& job) {
-  job.record.recipe = {.chart = ChartKind::view, .leaves_surface = job.record.recipe.leaves_surface};
+template <ChartKind chart>
+bool in_chart(Case& job) {
+  job.record.recipe = {.chart = chart, .leaves_surface = job.record.recipe.leaves_surface};
   return true;
 }
 
@@ -117,10 +112,10 @@ constexpr std::array table{
     Row{any_of({Cause::inverted, Cause::no_mesh}), "denser points", 1, denser_points},
     Row{any_of({Cause::inverted}), "nodes of inverted quads off the surface", 1, off_the_surface},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh}),
-        "parametric curves recreated by projection", 1, with_curves_made_anew},
+        "parametric curves recreated by projection", 1, in_chart<ChartKind::new_curves>},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::looped_edge, Cause::unusable_boundary,
                 Cause::no_mesh, Cause::inverted}),
-        "seen from above", 1, seen_from_above},
+        "seen from above", 1, in_chart<ChartKind::view>},
     Row{any_of({Cause::stray_curves, Cause::crossing_curves, Cause::unusable_boundary, Cause::no_mesh,
                 Cause::inverted}),
         "the whole face twice as fine", 3, twice_as_fine},

@@ -50,23 +50,6 @@ SizeFidelity summary(std::vector<double> ratios) {
   return result;
 }
 
-}  // namespace
-
-nlohmann::ordered_json SizeFidelity::json() const {
-  nlohmann::ordered_json bars = nlohmann::ordered_json::array();
-  for (const Bin& bin : histogram) bars.push_back({{"from", bin.from}, {"to", bin.to}, {"count", bin.count}});
-  return {{"sides", sides},
-          {"median", median},
-          {"within_percent", within_percent},
-          {"below_percent", below_percent},
-          {"above_percent", above_percent},
-          {"low", low},
-          {"high", high},
-          {"histogram", bars}};
-}
-
-namespace {
-
 /// What the sizes request for the sides of the quads of one face.
 class WantedSides {
  public:
@@ -99,6 +82,19 @@ class WantedSides {
 };
 
 }  // namespace
+
+nlohmann::ordered_json SizeFidelity::json() const {
+  nlohmann::ordered_json bars = nlohmann::ordered_json::array();
+  for (const Bin& bin : histogram) bars.push_back({{"from", bin.from}, {"to", bin.to}, {"count", bin.count}});
+  return {{"sides", sides},
+          {"median", median},
+          {"within_percent", within_percent},
+          {"below_percent", below_percent},
+          {"above_percent", above_percent},
+          {"low", low},
+          {"high", high},
+          {"histogram", bars}};
+}
 
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field, const CadShape& shape) {
   // The two quads of a face on a side run along it in opposite directions: the one with a < b counts it. On

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -18,6 +17,7 @@
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/second_order.hpp"
 #include "mesher/mesh/sides.hpp"
+#include "mesher/mesh/surface_cut.hpp"
 
 namespace quadrille {
 namespace {
@@ -83,8 +83,8 @@ bool check_indices(const Elements& elements, Findings& findings) {
   return in_range;
 }
 
-void check_used(std::size_t points, const std::vector<char>& used, Findings& findings) {
-  for (std::size_t i = 0; i < points; ++i)
+void check_used(const std::vector<char>& used, Findings& findings) {
+  for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i]) findings.add("point {} belongs to no element", i);
 }
 
@@ -128,70 +128,18 @@ void check_tags(std::size_t tags, std::size_t count, const char* what, Findings&
 /// The checks that triangles and quads share; false if indices are out of range and nothing more can be said.
 bool check_elements(const Elements& elements, Findings& findings) {
   if (!check_indices(elements, findings)) return false;
-  check_used(elements.points.size(), used_points(elements), findings);
+  check_used(used_points(elements), findings);
   check_manifold(elements, findings);
   check_areas(elements, findings);
   return true;
 }
 
-/// Finds points within a distance of one another, with cells far larger than that distance.
-class CoincidenceSearch {
- public:
-  CoincidenceSearch(std::span<const Vector3> points, double distance)
-      : points_(points), distance_(distance), cell_(1000 * distance) {
-    next_.assign(points.size(), -1);
-    heads_.reserve(points.size());
-  }
-
-  void run(Findings& findings) {
-    for (int i = 0; i < static_cast<int>(points_.size()) && findings.empty(); ++i) {
-      visit_cells(points_[i], distance_, [&](std::uint64_t key) {
-        const auto head = heads_.find(key);
-        for (int j = head == heads_.end() ? -1 : head->second; j >= 0; j = next_[j])
-          if ((points_[j] - points_[i]).norm() <= distance_) findings.add("points {} and {} coincide", j, i);
-      });
-      visit_cells(points_[i], 0, [&](std::uint64_t key) {
-        const auto [head, fresh] = heads_.try_emplace(key, -1);
-        next_[i] = head->second;
-        head->second = i;
-      });
-    }
-  }
-
- private:
-  /// Visits the cells within `reach` of a point: usually one, rarely up to eight.
-  template <typename Visit>
-  void visit_cells(const Vector3& p, double reach, Visit&& visit) const {
-    std::array<std::array<std::int64_t, 2>, 3> range;
-    for (int axis = 0; axis < 3; ++axis)
-      range[axis] = {static_cast<std::int64_t>(std::floor((p[axis] - reach) / cell_)),
-                     static_cast<std::int64_t>(std::floor((p[axis] + reach) / cell_))};
-    for (auto i = range[0][0]; i <= range[0][1]; ++i)
-      for (auto j = range[1][0]; j <= range[1][1]; ++j)
-        for (auto k = range[2][0]; k <= range[2][1]; ++k)
-          visit(static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15u ^
-                static_cast<std::uint64_t>(j) * 0xC2B2AE3D27D4EB4Fu ^
-                static_cast<std::uint64_t>(k) * 0x165667B19E3779F9u);
-  }
-
-  std::span<const Vector3> points_;
-  double distance_, cell_;
-  std::vector<int> next_;
-  std::unordered_map<std::uint64_t, int> heads_;
-};
-
-void check_coincident(std::span<const Vector3> points, Findings& findings) {
-  if (points.empty()) return;
+void check_coincident(const std::vector<Vector3>& points, Findings& findings) {
   Eigen::AlignedBox3d box;
   for (const Vector3& p : points) box.extend(p);
-  const double diagonal = box.diagonal().norm();
-  if (!(diagonal > 0)) {
-    if (points.size() > 1) findings.add("all {} points coincide", points.size());
-    return;
-  }
-  Findings pairs;
-  CoincidenceSearch(points, coincident * diagonal).run(pairs);
-  for (const auto& sentence : pairs.take()) findings.add("{}", sentence);
+  const std::vector<int> first = coincident_points(points, coincident * box.diagonal().norm());
+  for (int i = 0; i < static_cast<int>(first.size()); ++i)
+    if (first[i] != i) findings.add("points {} and {} coincide", first[i], i);
 }
 
 using SegmentIndex = std::unordered_map<std::uint64_t, int>;
@@ -297,6 +245,17 @@ void check_midsides(const ShellMesh& mesh, Findings& findings) {
   }
 }
 
+/// Checks that second-order elements are valid everywhere, not only at their corners.
+void check_curved(const ShellMesh& mesh, Findings& findings) {
+  if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    const CurvedQuad element = curved_quad(mesh, i);
+    if (!folds(element)) continue;
+    const double bound = jacobian_bound(element);
+    findings.add("quad {} folds between its nodes: its Jacobian falls to {}", i, number_text(bound));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> validate(const TriangleMesh& mesh) {
@@ -315,21 +274,6 @@ std::vector<std::string> validate(const QuadMesh& mesh, bool require_convex) {
   return findings.take();
 }
 
-namespace {
-
-/// Checks that second-order elements are valid everywhere, not only at their corners.
-void check_curved(const ShellMesh& mesh, Findings& findings) {
-  if (mesh.order != 2 || mesh.midsides.size() != mesh.quads.size()) return;
-  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-    const CurvedQuad element = curved_quad(mesh, i);
-    if (!folds(element)) continue;
-    const double bound = jacobian_bound(element);
-    findings.add("quad {} folds between its nodes: its Jacobian falls to {}", i, number_text(bound));
-  }
-}
-
-}  // namespace
-
 std::vector<std::string> validate(const ShellMesh& mesh, bool closed) {
   Findings findings;
   const Elements elements{mesh.points, mesh.quads, mesh.triangles};
@@ -344,7 +288,7 @@ std::vector<std::string> validate(const ShellMesh& mesh, bool closed) {
   for (const auto& row : mesh.midsides)
     for (const int node : row)
       if (node >= 0 && node < n) used[node] = 1;
-  check_used(mesh.points.size(), used, findings);
+  check_used(used, findings);
   check_coincident(mesh.points, findings);
   check_convex(elements, findings);
   check_shell_sides(mesh, elements, closed, findings);

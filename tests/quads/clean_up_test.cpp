@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -232,16 +231,7 @@ TEST(CleanUp, BelievesTheAnglesOfTheCurves) {
   for (int node = 0; node < 8; ++node) EXPECT_EQ(quads_at(circle, node), 2) << node;
 }
 
-TEST(CleanUp, KeepsTagsTrianglesAndOtherOptions) {
-  SurfaceMesh mesh = sample::rectangle(12, 1, 3);
-  const auto& x = mesh.mesh.points;
-  for (const auto& q : mesh.mesh.quads) mesh.mesh.quad_tags.push_back((x[q[0]] + x[q[2]]).x() < 1 ? 1 : 2);
-  const std::set<int> tags(mesh.mesh.quad_tags.begin(), mesh.mesh.quad_tags.end());
-  ASSERT_EQ(tags.size(), 2u);
-  clean(mesh);
-  EXPECT_EQ(validate(mesh.mesh), std::vector<std::string>{});
-  EXPECT_EQ(mesh.mesh.quad_tags.size(), mesh.mesh.quads.size());
-
+TEST(CleanUp, KeepsTrianglesAndOtherOptions) {
   SurfaceMesh odd = grid(4, 4);
   odd.mesh.quads.pop_back();
   odd.mesh.triangles = {{18, 19, 24}};

@@ -15,7 +15,7 @@ using namespace testing;
 
 TEST(QuadTopology, FollowsFansRoundNodes) {
   const SurfaceMesh mesh = grid(3, 3);
-  const QuadTopology topology(mesh.mesh.quads, {}, 16);
+  const QuadTopology topology(mesh.mesh.quads, 16);
   const QuadTopology::Fan inner = topology.fan(topology.side_of(5));
   EXPECT_TRUE(inner.closed);
   EXPECT_EQ(inner.quads, 4);
@@ -28,7 +28,7 @@ TEST(QuadTopology, FollowsFansRoundNodes) {
 
 TEST(QuadTopology, RefusesWhatWouldNotFit) {
   const SurfaceMesh mesh = grid(3, 3);
-  QuadTopology topology(mesh.mesh.quads, {}, 16);
+  QuadTopology topology(mesh.mesh.quads, 16);
   const std::array<int, 2> patch{0, 1};
   using Quad = QuadTopology::Quad;
   // Another outline; the same side twice; the wrong way round.
@@ -42,12 +42,6 @@ TEST(QuadTopology, RefusesWhatWouldNotFit) {
   EXPECT_EQ(topology.valence(topology.side_of(1)), 1);
   EXPECT_EQ(topology.valence(topology.side_of(2)), 3);
   EXPECT_EQ(topology.valence(topology.side_of(5)), 3);
-}
-
-TEST(QuadTopology, KeepsTagsApart) {
-  const SurfaceMesh mesh = grid(2, 1);
-  const QuadTopology topology(mesh.mesh.quads, {1, 2}, 6);
-  for (int side = 0; side < 8; ++side) EXPECT_EQ(topology.twin(side), -1);
 }
 
 }  // namespace

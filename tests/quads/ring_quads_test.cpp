@@ -43,7 +43,7 @@ class RingQuads : public ::testing::Test {
     rings_.holes.push_back(hole);
     for (const double half : {4.0, 2.0})
       for (int i = 0; i < 4; ++i) {
-        quads_.add(surface_.point(corner(half, i)), corner(half, i), {0, 0, 1}, true, false);
+        quads_.add({surface_.point(corner(half, i)), {0, 0, 1}, corner(half, i)}, true, false);
         quads_.nodes.push_back(half == 4 ? i : HoleRings::node(i));
       }
     for (int i = 0; i < 4; ++i)
