@@ -199,12 +199,11 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
   // Rows come in pairs where quads are cut in four, so the number of elements is a minimum.
   const double asked =
       options_.proximity > rows ? rows * std::ceil(options_.proximity / rows) : options_.proximity;
-  const double least = options_.size_min > 0 ? limits_.size_min : limits_.least;
   const double n = std::max(asked, rows / longest);
   const FaceGaps gaps(shape_, id, n * limits_.largest, n * limits_.size_min);
   for (const FaceGap& gap : gaps.find(context_)) {
     double size = limits_.largest;
-    if (asked > 0) size = std::max(gap.width() / asked, least);
+    if (asked > 0) size = std::max(gap.width() / asked, limits_.at_gaps);
     if (options_.short_edges && gap.angle < parallel && gap.width() >= least_width * limits_.size_min)
       size = std::min(size, std::max(longest / rows * gap.width(), limits_.size_min));
     if (!(size < limits_.largest)) continue;

@@ -326,7 +326,7 @@ SizeLimits size_limits(const CadModel& model, const SizingOptions& options) {
                                           "points of a CAD model coincide: use a larger size",
                                           requested, resolution));
   const double lower_limit = std::max(least, resolution);
-  return {size, std::min({lower_limit, at_gaps, requested}), lower_limit};
+  return {size, std::min({lower_limit, at_gaps, requested}), lower_limit, at_gaps};
 }
 
 EdgeFlags edges_below_size_min(const CadModel& model, const SizingOptions& options,

@@ -22,6 +22,7 @@ struct SizeLimits {
   double largest;   ///< the global size
   double least;     ///< smallest size anywhere: size_min, or a smaller one that users give by name
   double size_min;  ///< smallest size of the sources that are not given by name, such as curvature
+  double at_gaps;   ///< smallest size across gaps
 };
 SizeLimits size_limits(const CadModel& model, const SizingOptions& options);  ///< limits for a model
 

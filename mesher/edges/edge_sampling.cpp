@@ -91,6 +91,11 @@ std::pair<double, double> counts_between(const CountTable& table, const EdgeHead
           table.count_at_length(table.length() - sum_of(heads.last))};
 }
 
+/// No segment of an edge is shorter unless users give sizes below it by name there.
+double least_size(const SizingField& field, const SamplingPlan& plan, EdgeId edge) {
+  return is_set(plan.below_size_min, edge) ? field.limits().least : field.limits().size_min;
+}
+
 class TargetFinder {
  public:
   TargetFinder(const CadShape& shape, const SizingField& field, int stride, const SamplingPlan& plan,
@@ -162,7 +167,7 @@ class TargetFinder {
   /// be below the least.
   double most_at_least_size(EdgeId i, int unit) const {
     constexpr double rounding = 1 + 1e-6;
-    const double room = rounding * shape_.edges[i].length / field_.limits().least;
+    const double room = rounding * shape_.edges[i].length / least_size(field_, plan_, i);
     return demand_.tables[i].total() > room ? std::numeric_limits<double>::infinity()
                                             : std::max(1.0, std::floor(room / unit));
   }
@@ -483,6 +488,7 @@ void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
 
 SamplingPlan::SamplingPlan(const CadShape& shape)
     : factor(shape.edges.size(), 1),
+      below_size_min(shape.edges.size()),
       ignore_curvature(shape.edges.size()),
       subdivided(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}
@@ -494,7 +500,9 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
   free_sides_beside_chains(shape, used, plan.rows, found);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);
-  StripRefiner strips(shape, field.options().aspect, field.limits().least);
+  IdVector<EdgeId, double> shortest;
+  for (const EdgeId id : shape.edges.ids()) shortest.push_back(least_size(field, plan, id));
+  StripRefiner strips(shape, field.options().aspect, std::move(shortest));
   constexpr int most_rounds = 3;
   for (int round = 0; round < most_rounds; ++round) {
     const bool refined =

@@ -77,6 +77,7 @@ struct SamplingPlan {
   IdVector<EdgeId, int> factor;                  ///< multiplies the number of segments
   std::vector<EdgeStretch> finer;
   double shortest_segment = 0;  ///< that `finer` may ask for, model units; 0 = any
+  EdgeFlags below_size_min;     ///< 1 = sizes given by name below SizeLimits::size_min may reach the edge
   EdgeFlags ignore_curvature;   ///< 1 = ignore how the curve turns, it may have loops
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
   TinyFeatures tiny;

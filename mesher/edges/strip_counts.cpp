@@ -106,15 +106,15 @@ bool StripRefiner::refine(const FaceOutlines& sides, const EdgeCounts& chosen, c
       if (!waist) waist = waist_between(ways[k]);
       across.narrowest *= waist->narrowest;
       across.length *= waist->mean;
-      if (in_narrowest * aspect_ * across.mean() < shortest_) continue;  // out of reach
-      const double at_most = std::max(in_narrowest * aspect_ * across.least(), shortest_);
-      const double longest = std::max(aspect_ * across.mean(), shortest_);
       for (const FacingPair& pair : ways[k])
         for (const SideEdge& edge : pair.edges()) {
+          const double shortest = shortest_[edge.edge];
+          if (in_narrowest * aspect_ * across.mean() < shortest) continue;  // out of reach
           const EdgeId chord = chosen.chords.of(edge.edge);
           const double length = shape_.edges[edge.edge].length;
-          wanted[chord] = std::max(wanted[chord], length / longest);
-          least[chord] = std::max(least[chord], std::ceil(length / at_most));
+          wanted[chord] = std::max(wanted[chord], length / std::max(aspect_ * across.mean(), shortest));
+          least[chord] = std::max(
+              least[chord], std::ceil(length / std::max(in_narrowest * aspect_ * across.least(), shortest)));
         }
     }
   }

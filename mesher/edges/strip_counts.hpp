@@ -14,10 +14,10 @@ namespace quadrille {
 /// Segments along four-sided faces whose rows are narrower than the segments are long.
 class StripRefiner {
  public:
-  /// \param aspect how many times as long as the rows are wide quads may be \param shortest no shorter
-  /// segments are asked for
-  StripRefiner(const CadShape& shape, double aspect, double shortest)
-      : shape_(shape), aspect_(aspect), shortest_(shortest), waists_(shape.faces.size()) {}
+  /// \param aspect how many times as long as the rows are wide quads may be \param shortest (edges) no
+  /// shorter segments are asked for
+  StripRefiner(const CadShape& shape, double aspect, IdVector<EdgeId, double> shortest)
+      : shape_(shape), aspect_(aspect), shortest_(std::move(shortest)), waists_(shape.faces.size()) {}
 
   /// Raises the wanted counts of edges of four-sided faces and of the rest of their chords until quads are at
   /// most `aspect` times as long as the rows are wide. The width of the rows is known once counts are chosen.
@@ -35,7 +35,8 @@ class StripRefiner {
   Waist waist_between(std::span<const FacingPair> along) const;
 
   const CadShape& shape_;
-  double aspect_, shortest_;
+  double aspect_;
+  IdVector<EdgeId, double> shortest_;
   IdVector<FaceId, std::array<std::optional<Waist>, 2>> waists_;  // across and along the first sides
 };
 

@@ -22,6 +22,7 @@ FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
 /// What users or matched pairs keep from being suppressed or crossed.
 struct Protection {
+  EdgeFlags below_size_min;        ///< see edges_below_size_min()
   EdgeFlags lengths;               ///< 1 = the edge must not become a point
   EdgeFlags own_nodes;             ///< 1 = the edge keeps nodes of its own: no quad crosses it
   std::vector<VertexId> vertices;  ///< they share their nodes with no other

@@ -6,8 +6,10 @@
 
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRep_Builder.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 
 #include <cmath>
 #include <map>
@@ -47,6 +49,27 @@ TEST(EdgeSampling, GivesArcsTheSegmentsThatTheirSizesAskForAtLeast) {
         EXPECT_GE(segments[edge], per_circle * angle / (2 * M_PI) - 0.5) << size << " " << per_circle;
     }
   }
+}
+
+/// A size below the least one that a user gives to a vertex of one part changes nothing on another part,
+/// whose edges have room for two segments of the least size, and a half.
+TEST(EdgeSampling, SmallNamedSizesActWhereTheyAre) {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, BRepPrimAPI_MakeBox(13, 13, 13).Shape());
+  builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(200, 0, 0), 20, 20, 20).Shape());
+  const CadModel model(std::make_shared<CadShape>(both, "both"));
+  MeshOptions options;
+  options.sizing.size = options.sizing.size_min = 5;
+  options.strategy = Strategy::direct;
+  ExecutionContext context(1);
+  const ShellMesh before = mesh(model, options, context);
+  constexpr int last_vertex = 16;
+  options.sizing.vertex_sizes[last_vertex] = 0.1;
+  const ShellMesh after = mesh(model, options, context);
+  EXPECT_GT(after.quads.size(), before.quads.size());
+  for (int face = 0; face < 6; ++face) EXPECT_EQ(after.faces[face].quads, before.faces[face].quads) << face;
 }
 
 }  // namespace
