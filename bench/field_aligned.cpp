@@ -66,7 +66,7 @@ TriangleMesh triangulate_along_field(const std::vector<Ring>& rings, const Gradi
       sample_edges(shape, field, stride(options.strategy), FaceFlags(1, 1), SamplingPlan(shape), context);
   const FaceId face = FaceId::from_index(0);
   const FaceSurface surface(shape.faces[face]);
-  const FaceBoundary boundary = face_boundary(shape, face, surface, nodes);
+  const FaceBoundary boundary = face_boundary(shape, face, shape.faces[face], surface, nodes);
   SizingField::Sampler size_at(field);
   const PlacedPoints placed =
       place_points(boundary, surface, enclosed_domain(boundary), size_at, {}, context);

@@ -3,10 +3,11 @@
 #include "mesher/settings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -339,7 +340,8 @@ void check_limits(const Settings& settings) {
   }
 }
 
-void check_names(const Setting& setting, const std::vector<int>& numbers, std::string_view kind, int count) {
+template <class Numbers>
+void check_names(const Setting& setting, const Numbers& numbers, std::string_view kind, int count) {
   for (const int number : numbers) {
     if (number >= 1 && number <= count) continue;
     throw refused(setting, fmt::format("names {0}{1}, and there is no {0}{1}: the model has {2} of them",
@@ -347,12 +349,9 @@ void check_names(const Setting& setting, const std::vector<int>& numbers, std::s
   }
 }
 
-template <class Value>
-std::vector<int> keys(const std::map<int, Value>& sizes) {
-  std::vector<int> numbers;
-  numbers.reserve(sizes.size());
-  for (const auto& [number, size] : sizes) numbers.push_back(number);
-  return numbers;
+/// The setting that a spacing comes from.
+const Setting& entry_of(const EdgeSpacing& spacing) {
+  return entry(spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both");
 }
 
 }  // namespace
@@ -475,7 +474,7 @@ std::vector<int> pieces_of(const Setting& setting, std::string_view kind, int nu
     throw refused(setting, fmt::format("names {}{}: edges and vertices cannot be named where a model is "
                                        "imprinted with `sew`, which renumbers them",
                                        kind, number));
-  check_names(setting, {number}, kind, static_cast<int>(pieces.size()));
+  check_names(setting, std::array{number}, kind, static_cast<int>(pieces.size()));
   return pieces[static_cast<std::size_t>(number) - 1];
 }
 
@@ -539,9 +538,7 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
   rename(entry("layers"), "Vertex", model.vertex_pieces(), sizing.layers.vertices, finer);
   std::map<int, EdgeSpacing> spacings;
   for (const auto& [edge, spacing] : sizing.spacings) {
-    const Setting& setting = entry(spacing.segments > 0 ? "segments"
-                                   : spacing.bias != 1  ? "bias"
-                                                        : "bias_both");
+    const Setting& setting = entry_of(spacing);
     const std::vector<int> pieces = pieces_of(setting, "Edge", edge, model.edge_pieces());
     if (pieces.size() != 1 || !spacings.emplace(pieces.front(), spacing).second)
       throw refused(setting,
@@ -568,23 +565,25 @@ void check(const Settings& settings, const CadModel& model) {
        {std::pair("merge_tiny", settings.mesh.merge_tiny), std::pair("reach", settings.mesh.reach)})
     if (length > size)
       throw refused(entry(name), fmt::format("must be at most the size, {:.6g}, not {:g}", size, length));
-  check_names(entry("faces"), settings.mesh.faces, "Face", model.face_count());
-  check_names(entry("sizes"), keys(sizing.face_sizes), "Face", model.face_count());
-  check_names(entry("sizes"), keys(sizing.edge_sizes), "Edge", model.edge_count());
-  check_names(entry("sizes"), keys(sizing.vertex_sizes), "Vertex", model.vertex_count());
-  check_names(entry("keep"), {sizing.kept_faces.begin(), sizing.kept_faces.end()}, "Face",
-              model.face_count());
-  check_names(entry("keep"), {sizing.kept_edges.begin(), sizing.kept_edges.end()}, "Edge",
-              model.edge_count());
+  const auto check_all = [&](const Setting& setting, const auto& numbers, std::string_view kind) {
+    check_names(setting, numbers, kind,
+                kind == "Face"   ? model.face_count()
+                : kind == "Edge" ? model.edge_count()
+                                 : model.vertex_count());
+  };
+  check_all(entry("faces"), settings.mesh.faces, "Face");
+  check_all(entry("sizes"), std::views::keys(sizing.face_sizes), "Face");
+  check_all(entry("sizes"), std::views::keys(sizing.edge_sizes), "Edge");
+  check_all(entry("sizes"), std::views::keys(sizing.vertex_sizes), "Vertex");
+  check_all(entry("keep"), sizing.kept_faces, "Face");
+  check_all(entry("keep"), sizing.kept_edges, "Edge");
   for (const MatchedPair& pair : sizing.matches)
-    check_names(entry("match"), {pair.first, pair.second}, pair.dimension == 2 ? "Face" : "Edge",
-                pair.dimension == 2 ? model.face_count() : model.edge_count());
-  check_names(entry("layers"), keys(sizing.layers.faces), "Face", model.face_count());
-  check_names(entry("layers"), keys(sizing.layers.edges), "Edge", model.edge_count());
-  check_names(entry("layers"), keys(sizing.layers.vertices), "Vertex", model.vertex_count());
+    check_all(entry("match"), std::array{pair.first, pair.second}, pair.dimension == 2 ? "Face" : "Edge");
+  check_all(entry("layers"), std::views::keys(sizing.layers.faces), "Face");
+  check_all(entry("layers"), std::views::keys(sizing.layers.edges), "Edge");
+  check_all(entry("layers"), std::views::keys(sizing.layers.vertices), "Vertex");
   for (const auto& [edge, spacing] : sizing.spacings) {
-    const char* name = spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both";
-    check_names(entry(name), {edge}, "Edge", model.edge_count());
+    check_all(entry_of(spacing), std::array{edge}, "Edge");
     if (spacing.bias != 1 && spacing.bias_both != 1)
       throw refused(entry("bias_both"),
                     fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));

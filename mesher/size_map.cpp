@@ -3,7 +3,6 @@
 #include "mesher/size_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -27,6 +26,9 @@ constexpr std::size_t most_triangles = 1000000;
 /// Radians between neighboring triangles on curved faces. Small fillets far below the size should not take
 /// most of the triangles.
 constexpr double turn_of_triangle = 0.4;
+
+/// Edges stay whole, so that entities are those of the model.
+const Preparation undivided{.divides = false};
 
 /// One source of sizes: whether options use it, and how to copy it into options without sources.
 struct Kind {
@@ -165,7 +167,8 @@ void find_rulers(const CadModel& model, const MeshOptions& options, const Look& 
     MeshOptions alone = options;
     alone.sizing = without_sources(options.sizing, limits);
     kind.take(alone.sizing, options.sizing);
-    const std::vector<double> sizes = look.sizes(wanted_sizes(model, alone, context)).across;
+    const std::vector<double> sizes =
+        look.sizes(sizes_for(Prepared(model, alone, undivided), context)).across;
     const int number = static_cast<int>(map.sources.size());
     map.sources.push_back({std::string(kind.name)});
     for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -199,7 +202,7 @@ SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionCon
   QuadEstimate estimate(model, context);
   map.quads = estimate.quads(options);
   on_threads(context.threads(), [&] {
-    const SizingField field = wanted_sizes(model, options, context);
+    const SizingField field = sizes_for(Prepared(model, options, undivided), context);
     if (!options.write_size_field.empty()) field.write(options.write_size_field);
     SurfaceTriangles surface = triangles_for(model, options, field, context);
     map.triangles = std::move(surface.triangles);

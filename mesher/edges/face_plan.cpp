@@ -92,8 +92,6 @@ FacePlan plan_of(const CadShape& shape, const CadFace& face, FaceSides sides, bo
     plan.has_kept_edge |= edge.kept;
     plan.has_divided_edge |= edge.divided;
   }
-  plan.is_filled = sides.is_filled();
-  plan.keeps_rows = sides.is_filled() && plan.has_kept_edge;
   if (sides.has_four_sides()) {
     const GridSize grid = size_of(sides_of(face, sides, nodes));
     plan.grid_quads = grid.columns * grid.rows;

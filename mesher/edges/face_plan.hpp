@@ -23,10 +23,13 @@ struct FacePlan {
   int stride = 1;
   int grid_quads = 0;                  ///< of a grid between four sides; 0 for other faces
   std::vector<HoleBlock> hole_blocks;  ///< cells that holes replace, by wire without that of the outline
-  bool is_filled = false;              ///< a grid fills the face, so that its sides need no room between them
   bool has_kept_edge = false;          ///< users prescribe the spacing of one of its edges
   bool has_divided_edge = false;       ///< users prescribe the number of segments on one of its edges
-  bool keeps_rows = false;             ///< the rows of its grid follow a prescribed spacing
+
+  /// A grid fills the face, so that its sides need no room between them.
+  bool is_filled() const { return sides.is_filled(); }
+  /// The rows of its grid follow a prescribed spacing.
+  bool keeps_rows() const { return is_filled() && has_kept_edge; }
 };
 
 using FacePlans = IdVector<FaceId, FacePlan>;

@@ -9,7 +9,6 @@
 #include "mesher/faces/boundary_crossings.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>

@@ -2,8 +2,6 @@
 /// Finds where the boundary of a face crosses itself in the parameter plane, and why. Internal.
 
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/face_surface.hpp"

@@ -349,17 +349,14 @@ class BoundaryWalker {
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes) {
   FaceBoundary boundary = BoundaryWalker(shape, face, cad_face, surface, nodes).walk();
-  if (boundary.segments.empty()) {
-    const std::string name = fmt::format("Face{}", face.number());
+  const std::string name = fmt::format("Face{}", face.number());
+  if (boundary.segments.empty())
     throw failure(name, fmt::format("{} has no usable boundary in its parameter plane", name));
-  }
   constexpr double largest = 1e50;  // products of several must not overflow
   const auto finite = [&](const auto& p) { return p.cwiseAbs().maxCoeff() < largest; };
   if (!std::all_of(boundary.uv.begin(), boundary.uv.end(), finite) ||
-      !std::all_of(boundary.points.begin(), boundary.points.end(), finite)) {
-    const std::string name = fmt::format("Face{}", face.number());
+      !std::all_of(boundary.points.begin(), boundary.points.end(), finite))
     throw failure(name, fmt::format("the boundary of {} runs to infinity: the file may be damaged", name));
-  }
   return boundary;
 }
 

@@ -47,11 +47,6 @@ struct FaceBoundary {
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes);
 
-inline FaceBoundary face_boundary(const CadShape& shape, FaceId face, const FaceSurface& surface,
-                                  const BoundaryNodes& nodes) {
-  return face_boundary(shape, face, shape.faces[face], surface, nodes);
-}
-
 /// Drops points, and renumbers the rest. \param target (points) the point itself, the one that takes its
 /// place, or, where no segment ends, -1
 void unite_points(FaceBoundary& boundary, const std::vector<int>& target);

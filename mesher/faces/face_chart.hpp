@@ -2,7 +2,6 @@
 /// A face in its parameter plane: the surface that evaluates it, and its boundary there. Internal.
 
 #include <memory>
-#include <optional>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/face_surface.hpp"

@@ -168,11 +168,6 @@ bool follows_sizes(const FaceGrid& grid, const std::vector<Line>& loops, SizingF
   return 10 * off <= inner;
 }
 
-/// Whether four sides have as many nodes as those opposite.
-bool face_each_other(const std::vector<Line>& sides) {
-  return sides.size() == 4 && sides[0].size() == sides[2].size() && sides[1].size() == sides[3].size();
-}
-
 /// Adds points and quads inside a boundary.
 class GridMaker {
  public:
@@ -181,12 +176,6 @@ class GridMaker {
       : grid_(std::move(outline)), surface_(surface), size_at_(size_at), check_(check) {}
 
   FaceGrid grid() && { return std::move(grid_); }
-
-  bool make_four(const std::vector<Line>& sides) {
-    if (!face_each_other(sides)) return false;
-    fill(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
-    return true;
-  }
 
   /// Makes rows between two loops, rotated so that the distances between their nodes are smallest.
   bool make_ring(const Line& outer, Line inner) {
@@ -205,14 +194,15 @@ class GridMaker {
     return true;
   }
 
-  /// Makes a grid in which each hole replaces a block of cells, with rings of quads between hole and block.
-  bool make_holed(const std::vector<Line>& sides, const std::vector<Line>& loops, int outer,
-                  const std::vector<HoleBlock>& blocks) {
-    if (!face_each_other(sides)) return false;
+  /// Makes a grid between four sides, in which each hole replaces a block of cells, with rings of quads
+  /// between hole and block.
+  bool make_four(const std::vector<Line>& sides, const std::vector<Line>& loops, int outer,
+                 const std::vector<HoleBlock>& blocks) {
+    if (sides.size() != 4 || sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size())
+      return false;
     const std::vector<Line> rows = rows_inside(sides[0], sides[1], turned(sides[2]), turned(sides[3]));
     const int columns = static_cast<int>(sides[0].size()) - 1,
               row_count = static_cast<int>(sides[1].size()) - 1;
-    if (columns < 3 || row_count < 3) return false;
     std::vector<char> covered(static_cast<std::size_t>(columns) * row_count, 0);
     auto block = blocks.begin();
     for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -269,20 +259,13 @@ class GridMaker {
     return shares;
   }
 
-  /// Adds a grid between four lines, which run in the direction of growing columns or rows.
-  void fill(const Line& bottom, const Line& right, const Line& top, const Line& left) {
-    const std::vector<Line> rows = rows_inside(bottom, right, top, left);
-    for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
-      for (std::size_t i = 0; i + 1 < bottom.size(); ++i) add_cell(rows, i, j);
-    }
-  }
-
   void add_cell(const std::vector<Line>& rows, std::size_t i, std::size_t j) {
     check_();
     grid_.quads.push_back({rows[j][i], rows[j][i + 1], rows[j + 1][i + 1], rows[j + 1][i]});
   }
 
-  /// The points of a grid between four lines, row by row, including the lines.
+  /// The points of a grid between four lines, row by row, including the lines, which run in the direction of
+  /// growing columns or rows.
   std::vector<Line> rows_inside(const Line& bottom, const Line& right, const Line& top, const Line& left) {
     const std::size_t m = bottom.size() - 1, n = left.size() - 1;
     const std::vector<double> b = shares_of(bottom), t = shares_of(top), l = shares_of(left),
@@ -383,13 +366,8 @@ std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& 
   if (kind == GridKind::ring) {
     is_made = loops.size() == 2 && maker.make_ring(loops[0], turned(loops[1]));
   } else {
-    const std::vector<Line> sides = cut_loop(boundary, plan.sides, loops[outer]);
-    if (kind == GridKind::holed)
-      is_made = loops.size() == boundary.first_segments.size() &&
-                loops.size() == plan.hole_blocks.size() + 1 &&
-                maker.make_holed(sides, loops, outer, plan.hole_blocks);
-    else
-      is_made = loops.size() == 1 && maker.make_four(sides);
+    is_made = loops.size() == boundary.first_segments.size() && loops.size() == plan.hole_blocks.size() + 1 &&
+              maker.make_four(cut_loop(boundary, plan.sides, loops[outer]), loops, outer, plan.hole_blocks);
   }
   if (!is_made) return std::nullopt;
   FaceGrid grid = std::move(maker).grid();

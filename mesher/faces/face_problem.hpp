@@ -2,11 +2,9 @@
 /// Why and where a face cannot be meshed. Internal.
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/vector.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 
 namespace quadrille {

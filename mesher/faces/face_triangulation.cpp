@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <set>
@@ -90,8 +91,8 @@ class Triangulator {
     return triangles;
   }
 
-  /// The placed points that run() found on segments.
-  const std::vector<int>& on_segments() const { return on_segments_; }
+  /// The placed points that run() found on segments, descending.
+  const std::set<int, std::greater<>>& on_segments() const { return on_segments_; }
 
  private:
   Kernel::Point_2 scaled(const Vector2& uv) const { return {uv.x() * scale_.x(), uv.y() * scale_.y()}; }
@@ -158,7 +159,7 @@ class Triangulator {
       if (next == b) return;
       const int placed = next->info() - boundary_.size();
       if (placed < 0) throw no_triangles(face_, boundary_.points[next->info()]);
-      on_segments_.push_back(placed);
+      on_segments_.insert(placed);
     }
   }
 
@@ -194,7 +195,7 @@ class Triangulator {
   Cdt cdt_;
   std::vector<Cdt::Vertex_handle> handles_;
   std::set<std::pair<int, int>> seen_, transparent_;
-  std::vector<int> on_segments_;
+  std::set<int, std::greater<>> on_segments_;
 };
 
 /// Triangulates without the placed points that lie on segments, and removes these from `placed`.
@@ -205,10 +206,7 @@ std::vector<std::array<int, 3>> triangles_of(FaceId face, const FaceBoundary& bo
     auto triangles = triangulator.run();
     if (triangulator.on_segments().empty()) return triangles;
     // Ends, since at least one point is removed each time.
-    std::vector<int> dropped = triangulator.on_segments();
-    std::sort(dropped.begin(), dropped.end(), std::greater<>());
-    dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
-    for (const int i : dropped) {
+    for (const int i : triangulator.on_segments()) {
       placed.uv.erase(placed.uv.begin() + i);
       placed.points.erase(placed.points.begin() + i);
     }

@@ -1,7 +1,6 @@
 #pragma once
 /// Triangulates the boundary points and placed points of a face. Internal.
 
-#include <array>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"

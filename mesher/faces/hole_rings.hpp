@@ -2,7 +2,6 @@
 /// Rings of quads around the holes of a face, and rows of given heights along its loops. Internal.
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "geometry/base/trimmed_domain.hpp"

@@ -8,7 +8,6 @@
 #include "mesher/faces/loop_filling.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -40,11 +39,6 @@ void join_hole(const std::vector<Vector3>& points, std::vector<int> hole, std::v
   outline.insert(outline.begin() + static_cast<long>(bridge.first) + 1, hole.begin(), hole.end());
 }
 
-double angle_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
-  const Vector3 u = a - corner, v = b - corner;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
-}
-
 }  // namespace
 
 void flip_flat(const std::vector<Vector3>& points, const std::set<std::pair<int, int>>& kept,
@@ -63,8 +57,8 @@ void flip_flat(const std::vector<Vector3>& points, const std::set<std::pair<int,
         // A triangle that was flipped in this pass may have another side there now.
         if (u == t || triangles[u][j] != b || triangles[u][(j + 1) % 3] != a) continue;
         const int c = triangles[t][(k + 2) % 3], d = triangles[u][(j + 2) % 3];
-        const double at_c = angle_at(points[c], points[a], points[b]),
-                     at_d = angle_at(points[d], points[a], points[b]);
+        const double at_c = angle_between(points[a] - points[c], points[b] - points[c]),
+                     at_d = angle_between(points[a] - points[d], points[b] - points[d]);
         constexpr double flat = 2.8, both = 3.2;  // radians; with a sum of pi, the flip changes nothing
         if (c == d || std::max(at_c, at_d) < flat || at_c + at_d < both) continue;
         triangles[t] = {c, a, d};

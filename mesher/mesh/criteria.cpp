@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 namespace quadrille {
 namespace {
@@ -83,18 +84,13 @@ struct Quad {
   }
 };
 
-/// The criterion that a quad violates most.
-struct Worst {
-  Criterion criterion;
-  double severity;
-};
-
-Worst worst_of(const CriteriaValues& values, const CriteriaLimits& limits) {
-  Worst worst{Criterion::aspect, 0};
+/// The criterion that a quad violates most, and how severely.
+std::pair<double, Criterion> worst_of(const CriteriaValues& values, const CriteriaLimits& limits) {
+  std::pair<double, Criterion> worst{0, Criterion::aspect};
   for (std::size_t i = 0; i < criterion_count; ++i) {
     const auto criterion = static_cast<Criterion>(i);
     const double severity = limits.severity(criterion, values[i]);
-    if (severity > worst.severity) worst = {criterion, severity};
+    if (severity > worst.first) worst = {severity, criterion};
   }
   return worst;
 }
@@ -160,10 +156,10 @@ CriteriaSummary check_criteria(const ShellMesh& mesh, const CriteriaLimits& limi
     ++face.failing;
     ++summary.failing;
     summary.outside += outside;
-    const Worst worst = worst_of(values, limits);
-    failing.push_back({worst.severity,
-                       {static_cast<int>(i), number, (pa + pb + pc + pd) / 4, worst.criterion,
-                        values[static_cast<std::size_t>(worst.criterion)]}});
+    const auto [severity, worst] = worst_of(values, limits);
+    failing.push_back({severity,
+                       {static_cast<int>(i), number, (pa + pb + pc + pd) / 4, worst,
+                        values[static_cast<std::size_t>(worst)]}});
   }
   for (auto& [number, face] : faces) {
     face.face = number;

@@ -61,26 +61,34 @@ struct Frame {
     const double length = std::max(lengths[before] * lengths[j], std::numeric_limits<double>::min());
     return {crosses[j].dot(normal) / length, -sides[before].dot(sides[j]) / length};
   }
-};
 
-double corner_angle(double sine, double cosine) {
-  const double angle = std::atan2(sine, cosine);
-  return angle < 0 ? angle + 2 * pi : angle;
-}
+  double scaled_jacobian() const {
+    double least = 1;
+    for (int j = 0; j < 4; ++j) least = std::min(least, sine_cosine(j).first);
+    return least;
+  }
+
+  double q() const {
+    double off = 0;
+    for (int j = 0; j < 4; ++j) {
+      const auto [sine, cosine] = sine_cosine(j);
+      const double angle = std::atan2(sine, cosine);
+      off = std::max(off, std::abs(pi / 2 - (angle < 0 ? angle + 2 * pi : angle)));
+    }
+    return std::max(1 - 2 / pi * off, 0.0);
+  }
+};
 
 Corners measure(const std::array<const Vector3*, 4>& p) {
   const Frame frame(p);
   Corners corners;
-  corners.scaled_jacobian = 1;
-  double off = 0, least = frame.area;
+  corners.q = frame.q();
+  corners.scaled_jacobian = frame.scaled_jacobian();
+  double least = frame.area;
   for (int j = 0; j < 4; ++j) {
-    const auto [sine, cosine] = frame.sine_cosine(j);
-    corners.scaled_jacobian = std::min(corners.scaled_jacobian, sine);
     least = std::min(least, frame.crosses[j].dot(frame.normal));
-    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
     corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
   }
-  corners.q = std::max(1 - 2 / pi * off, 0.0);
   // The cross products are proportional to the Jacobians at the corners, and `area` is their sum.
   corners.jacobian = frame.area > 0 ? 4 * least / frame.area : 0;
   corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
@@ -201,20 +209,11 @@ void measure_sides(const ShellMesh& mesh, QualitySummary& summary) {
 }  // namespace
 
 double quad_q(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const Frame frame({&a, &b, &c, &d});
-  double off = 0;
-  for (int j = 0; j < 4; ++j) {
-    const auto [sine, cosine] = frame.sine_cosine(j);
-    off = std::max(off, std::abs(pi / 2 - corner_angle(sine, cosine)));
-  }
-  return std::max(1 - 2 / pi * off, 0.0);
+  return Frame({&a, &b, &c, &d}).q();
 }
 
 double quad_scaled_jacobian(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-  const Frame frame({&a, &b, &c, &d});
-  double least = 1;
-  for (int j = 0; j < 4; ++j) least = std::min(least, frame.sine_cosine(j).first);
-  return least;
+  return Frame({&a, &b, &c, &d}).scaled_jacobian();
 }
 
 QualitySummary quality(const ShellMesh& mesh) {

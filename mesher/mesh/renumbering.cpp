@@ -52,6 +52,18 @@ std::vector<int> along_curve(const std::vector<Vector3>& points,
   return rows.take_items();
 }
 
+/// Gives the points of an element their numbers; those that have none yet get the next ones.
+template <std::size_t n>
+void renumber(std::array<int, n>& element, std::vector<int>& number, std::vector<int>& old_point) {
+  for (int& v : element) {
+    if (number[v] < 0) {
+      number[v] = static_cast<int>(old_point.size());
+      old_point.push_back(v);
+    }
+    v = number[v];
+  }
+}
+
 }  // namespace
 
 bool is_scattered(const TriangleMesh& mesh) {
@@ -80,15 +92,7 @@ RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& 
   if (!mesh.tags.empty()) result.mesh.tags.reserve(mesh.tags.size());
   for (int t : order) {
     check();
-    std::array<int, 3> triangle = mesh.triangles[t];
-    for (int& v : triangle) {
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(result.old_point.size());
-        result.old_point.push_back(v);
-      }
-      v = number[v];
-    }
-    result.mesh.triangles.push_back(triangle);
+    renumber(result.mesh.triangles.emplace_back(mesh.triangles[t]), number, result.old_point);
     if (!mesh.tags.empty()) result.mesh.tags.push_back(mesh.tags[t]);
   }
   result.mesh.points.reserve(result.old_point.size());
@@ -108,14 +112,7 @@ std::vector<int> order_by_place(const std::vector<Vector3>& points, std::size_t 
   ordered.reserve(quads.size());
   for (const int at : along_curve(points, quads, cells, check)) {
     check();
-    std::array<int, 4>& quad = ordered.emplace_back(quads[at]);
-    for (int& v : quad) {
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(old_point.size());
-        old_point.push_back(v);
-      }
-      v = number[v];
-    }
+    renumber(ordered.emplace_back(quads[at]), number, old_point);
   }
   quads = std::move(ordered);
   return old_point;

@@ -22,25 +22,6 @@ using Bicubic = Eigen::Matrix4d;
 constexpr std::array<double, 4> corner_xi{-1, 1, 1, -1}, corner_eta{-1, -1, 1, 1};
 constexpr std::array<double, 4> midside_xi{0, 1, 0, -1}, midside_eta{-1, 0, 1, 0};
 
-/// (dx/dxi) x (dx/deta) at a point of the reference square [-1, 1]^2.
-Vector3 area_vector(const CurvedQuad& element, double xi, double eta) {
-  Vector3 along = Vector3::Zero(), across = Vector3::Zero();
-  for (int k = 0; k < 4; ++k) {
-    const double a = corner_xi[k], b = corner_eta[k];
-    along += 0.25 * a * (1 + eta * b) * (2 * xi * a + eta * b) * element.corners[k];
-    across += 0.25 * b * (1 + xi * a) * (2 * eta * b + xi * a) * element.corners[k];
-    const double c = midside_xi[k], d = midside_eta[k];
-    if (c == 0) {
-      along += -xi * (1 + eta * d) * element.midsides[k];
-      across += 0.5 * (1 - xi * xi) * d * element.midsides[k];
-    } else {
-      along += 0.5 * c * (1 - eta * eta) * element.midsides[k];
-      across += -eta * (1 + xi * c) * element.midsides[k];
-    }
-  }
-  return along.cross(across);
-}
-
 /// Converts the values of a cubic at 0, 1/3, 2/3, 1 to its Bernstein coefficients.
 const Eigen::Matrix4d to_bernstein =
     (Eigen::Matrix4d() << 6, 0, 0, 0, -5, 18, -9, 2, 2, -9, 18, -5, 0, 0, 0, 6).finished() / 6;
@@ -118,6 +99,24 @@ Vector3 mean_jacobian(const std::array<std::array<Vector3, 4>, 4>& values) {
 
 }  // namespace
 
+Vector3 area_vector(const CurvedQuad& element, double xi, double eta) {
+  Vector3 along = Vector3::Zero(), across = Vector3::Zero();
+  for (int k = 0; k < 4; ++k) {
+    const double a = corner_xi[k], b = corner_eta[k];
+    along += 0.25 * a * (1 + eta * b) * (2 * xi * a + eta * b) * element.corners[k];
+    across += 0.25 * b * (1 + xi * a) * (2 * eta * b + xi * a) * element.corners[k];
+    const double c = midside_xi[k], d = midside_eta[k];
+    if (c == 0) {
+      along += -xi * (1 + eta * d) * element.midsides[k];
+      across += 0.5 * (1 - xi * xi) * d * element.midsides[k];
+    } else {
+      along += 0.5 * c * (1 - eta * eta) * element.midsides[k];
+      across += -eta * (1 + xi * c) * element.midsides[k];
+    }
+  }
+  return along.cross(across);
+}
+
 CurvedQuad curved_quad(const ShellMesh& mesh, std::size_t quad) {
   CurvedQuad element;
   for (int k = 0; k < 4; ++k) {
@@ -127,10 +126,14 @@ CurvedQuad curved_quad(const ShellMesh& mesh, std::size_t quad) {
   return element;
 }
 
+void straighten(CurvedQuad& element) {
+  for (int k = 0; k < 4; ++k) element.midsides[k] = 0.5 * (element.corners[k] + element.corners[(k + 1) % 4]);
+}
+
 CurvedQuad straight_quad(const ShellMesh& mesh, std::size_t quad) {
   CurvedQuad element;
   for (int k = 0; k < 4; ++k) element.corners[k] = mesh.points[mesh.quads[quad][k]];
-  for (int k = 0; k < 4; ++k) element.midsides[k] = 0.5 * (element.corners[k] + element.corners[(k + 1) % 4]);
+  straighten(element);
   return element;
 }
 

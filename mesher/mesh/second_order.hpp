@@ -13,6 +13,12 @@ struct CurvedQuad {
   std::array<Vector3, 4> corners, midsides;
 };
 
+/// (dx/dxi) x (dx/deta) at a point of the reference square [-1, 1]^2.
+Vector3 area_vector(const CurvedQuad& element, double xi, double eta);
+
+/// Puts the midsides halfway between the corners.
+void straighten(CurvedQuad& element);
+
 /// \param quad an element of a mesh of order 2.
 CurvedQuad curved_quad(const ShellMesh& mesh, std::size_t quad);
 

@@ -13,10 +13,15 @@
 
 namespace quadrille {
 
+namespace {
+
+[[noreturn]] void fail(std::size_t t, const std::string& what) {
+  throw failure(fmt::format("triangle {}", t), fmt::format("triangle {} {}", t, what));
+}
+
+}  // namespace
+
 void check_indices(const TriangleMesh& mesh) {
-  const auto fail = [](std::size_t t, const std::string& what) {
-    throw failure(fmt::format("triangle {}", t), fmt::format("triangle {} {}", t, what));
-  };
   const auto points = static_cast<unsigned>(mesh.points.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& c = mesh.triangles[t];
@@ -35,19 +40,16 @@ void check_indices(const TriangleMesh& mesh) {
 void check_sides(const TriangleMesh& mesh) {
   const auto from = [&](Side s) { return mesh.triangles[triangle_of(s)][index_of(s)]; };
   const auto to = [&](Side s) { return mesh.triangles[triangle_of(s)][next_index(index_of(s))]; };
-  const auto fail = [](Side side, const std::string& what) {
-    throw failure(fmt::format("triangle {}", triangle_of(side)),
-                  fmt::format("triangle {} {}", triangle_of(side), what));
-  };
   for_each_side_of_tag(mesh, [&](std::span<const Side> sides) {
     if (sides.size() < 2) return;
     const Side side = sides[1];
     if (from(side) == from(sides[0])) {
-      fail(side, fmt::format("runs along its side {}-{} the same way as triangle {}", from(side), to(side),
-                             triangle_of(sides[0])));
+      fail(triangle_of(side), fmt::format("runs along its side {}-{} the same way as triangle {}", from(side),
+                                          to(side), triangle_of(sides[0])));
     }
     if (sides.size() > 2)
-      fail(sides[2], fmt::format("is the third on the side {}-{}", from(sides[2]), to(sides[2])));
+      fail(triangle_of(sides[2]),
+           fmt::format("is the third on the side {}-{}", from(sides[2]), to(sides[2])));
   });
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdint>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -21,14 +21,6 @@ inline int next_index(int i) {
 }
 inline int previous_index(int i) {
   return i == 0 ? 2 : i - 1;
-}
-
-/// The next side of the same triangle, which starts where `side` ends, and the previous one.
-inline Side next_side(Side side) {
-  return make_side(triangle_of(side), next_index(index_of(side)));
-}
-inline Side previous_side(Side side) {
-  return make_side(triangle_of(side), previous_index(index_of(side)));
 }
 
 /// Calls visit(sides) once for each two points and tag that sides have in common: all of these, ascending.
@@ -127,14 +119,14 @@ void join_twins(const TriangleMesh& mesh, Join&& join) {
 /// The side of the other triangle at each side, by triangle and side; -1 = none.
 using Twins = std::vector<std::array<Side, 3>>;
 
-/// Numbers the pieces that triangles form across sides, from 0. \param is_open whether a piece continues
-/// across a side that has a twin \param pieces out: piece of each triangle. \return their number.
-template <class Open>
-int number_pieces(const Twins& twins, Open&& is_open, std::vector<int>& pieces) {
-  pieces.assign(twins.size(), -1);
+/// Numbers the pieces that triangles form across sides, from 0. \param twin_of (side) the side across which a
+/// piece continues there; -1 = none \param pieces out: piece of each triangle. \return their number.
+template <class TwinOf>
+int number_pieces(std::size_t triangles, TwinOf&& twin_of, std::vector<int>& pieces) {
+  pieces.assign(triangles, -1);
   int count = 0;
   std::vector<int> waiting;
-  for (int seed = 0; seed < static_cast<int>(twins.size()); ++seed) {
+  for (int seed = 0; seed < static_cast<int>(triangles); ++seed) {
     if (pieces[seed] >= 0) continue;
     pieces[seed] = count;
     waiting.push_back(seed);
@@ -142,8 +134,8 @@ int number_pieces(const Twins& twins, Open&& is_open, std::vector<int>& pieces) 
       const int t = waiting.back();
       waiting.pop_back();
       for (int i = 0; i < 3; ++i) {
-        const Side twin = twins[t][i];
-        if (twin < 0 || pieces[triangle_of(twin)] >= 0 || !is_open(make_side(t, i))) continue;
+        const Side twin = twin_of(make_side(t, i));
+        if (twin < 0 || pieces[triangle_of(twin)] >= 0) continue;
         pieces[triangle_of(twin)] = count;
         waiting.push_back(triangle_of(twin));
       }

@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
+
+#include "mesher/mesh/second_order.hpp"
 
 namespace quadrille {
 
@@ -20,35 +21,9 @@ namespace {
 constexpr std::array<std::array<double, 2>, 8> places{
     {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}}};
 
-/// The derivatives of the shape functions by both coordinates, for four or eight nodes.
-std::array<std::array<double, 2>, 8> derivatives(int nodes, double x, double y) {
-  std::array<std::array<double, 2>, 8> result{};
-  for (int i = 0; i < nodes; ++i) {
-    const auto [a, b] = places[i];
-    if (nodes == 4)
-      result[i] = {0.25 * a * (1 + b * y), 0.25 * b * (1 + a * x)};
-    else if (i < 4)
-      result[i] = {0.25 * a * (1 + b * y) * (2 * a * x + b * y),
-                   0.25 * b * (1 + a * x) * (2 * b * y + a * x)};
-    else if (a == 0)
-      result[i] = {-x * (1 + b * y), 0.5 * b * (1 - x * x)};
-    else
-      result[i] = {0.5 * a * (1 - y * y), -y * (1 + a * x)};
-  }
-  return result;
-}
-
-using Places = std::array<Vector3, 8>;
-
-/// The normal at a place of an element; its length is the scale of areas there.
-Vector3 normal_at(int nodes, const Places& points, double x, double y) {
-  Vector3 u = Vector3::Zero(), v = Vector3::Zero();
-  const auto slopes = derivatives(nodes, x, y);
-  for (int i = 0; i < nodes; ++i) {
-    u += slopes[i][0] * points[i];
-    v += slopes[i][1] * points[i];
-  }
-  return u.cross(v);
+/// The normal at a node of an element.
+Vector3 normal_at(const CurvedQuad& element, int i) {
+  return area_vector(element, places[i][0], places[i][1]).stableNormalized();
 }
 
 class Skins {
@@ -56,31 +31,32 @@ class Skins {
   explicit Skins(const ShellMesh& mesh) : mesh_(mesh), nodes_(mesh.midsides.empty() ? 4 : 8) {
     around_.resize(mesh.points.size());
     for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-      const Places points = points_of(quad);
-      for (int i = 0; i < nodes_; ++i) {
-        around_[node(quad, i)].push_back(
-            normal_at(nodes_, points, places[i][0], places[i][1]).stableNormalized());
-      }
+      const CurvedQuad element = element_of(quad);
+      for (int i = 0; i < nodes_; ++i) around_[node(quad, i)].push_back(normal_at(element, i));
     }
     for (const ShellMesh::VaryingThickness& varying : mesh.varying_thicknesses)
       varying_[varying.face] = &varying;
   }
 
   bool is_good(std::size_t quad) const {
-    const Places points = points_of(quad);
-    Places offsets;
+    const CurvedQuad element = element_of(quad);
+    CurvedQuad offset;
     for (int i = 0; i < nodes_; ++i) {
-      const Vector3 own = normal_at(nodes_, points, places[i][0], places[i][1]).stableNormalized();
       const int at = node(quad, i);
-      offsets[i] = 0.5 * thickness(mesh_.quad_faces[quad], at) * nodal_normal(at, own);
+      (i < 4 ? offset.corners[i] : offset.midsides[i - 4]) =
+          0.5 * thickness(mesh_.quad_faces[quad], at) * nodal_normal(at, normal_at(element, i));
     }
+    if (nodes_ == 4) straighten(offset);
     for (const double side : {-1.0, 1.0}) {
-      Places skin;
-      for (int i = 0; i < nodes_; ++i) skin[i] = points[i] + side * offsets[i];
+      CurvedQuad skin;
+      for (int k = 0; k < 4; ++k) {
+        skin.corners[k] = element.corners[k] + side * offset.corners[k];
+        skin.midsides[k] = element.midsides[k] + side * offset.midsides[k];
+      }
       const double gauss = std::sqrt(1.0 / 3);
       for (int i = 0; i < 4; ++i) {
         const double x = gauss * places[i][0], y = gauss * places[i][1];
-        if (normal_at(nodes_, skin, x, y).dot(normal_at(nodes_, points, x, y)) <= 0) return false;
+        if (area_vector(skin, x, y).dot(area_vector(element, x, y)) <= 0) return false;
       }
     }
     return true;
@@ -91,10 +67,8 @@ class Skins {
     return i < 4 ? mesh_.quads[quad][i] : mesh_.midsides[quad][i - 4];
   }
 
-  Places points_of(std::size_t quad) const {
-    Places result;
-    for (int i = 0; i < nodes_; ++i) result[i] = mesh_.points[node(quad, i)];
-    return result;
+  CurvedQuad element_of(std::size_t quad) const {
+    return nodes_ == 4 ? straight_quad(mesh_, quad) : curved_quad(mesh_, quad);
   }
 
   Vector3 nodal_normal(int node, const Vector3& own) const {

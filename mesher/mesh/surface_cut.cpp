@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -168,9 +169,7 @@ class PointSplitter {
 struct Cell {
   std::array<std::int64_t, 3> place;
   int point;
-  bool operator<(const Cell& other) const {
-    return std::tie(place, point) < std::tie(other.place, other.point);
-  }
+  auto operator<=>(const Cell&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 }  // namespace
@@ -239,8 +238,8 @@ CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::
     cut_twins(mesh, angle, sides, twins);
     CutSurface surface{mesh, std::vector<int>(mesh.points.size()), 0};
     std::iota(surface.original.begin(), surface.original.end(), 0);
-    surface.pieces = number_pieces(
-        twins, [](Side) { return true; }, surface.mesh.tags);
+    const auto twin_of = [&](Side side) { return twins[triangle_of(side)][index_of(side)]; };
+    surface.pieces = number_pieces(twins.size(), twin_of, surface.mesh.tags);
     PointSplitter(twins, surface).split();
     // A cut along a single side separates no points. It continues along the next side of its triangle.
     const std::size_t count = sides.size();

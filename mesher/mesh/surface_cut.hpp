@@ -2,7 +2,7 @@
 /// Prepares triangulations of any origin for pairing: orients them consistently, and cuts them along the
 /// sides that no quad may cross. Internal.
 
-#include <span>
+#include <array>
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"

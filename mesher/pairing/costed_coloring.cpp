@@ -11,6 +11,12 @@ namespace quadrille {
 
 namespace {
 
+/// Corner angles of a triangle and its unit normal. The angles of an inverted triangle are negative.
+struct TriangleShape {
+  float angle[3];
+  float normal[3];
+};
+
 /// atan2(y, x) for y >= 0, to 2e-6.
 inline float arc(float y, float x) {
   const float ax = std::fabs(x);
@@ -23,7 +29,8 @@ inline float arc(float y, float x) {
   return x < 0 ? 3.14159265F - a : a;
 }
 
-TriangleShape shape_of(const Vector3& a, const Vector3& b, const Vector3& c) {
+TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vector3>& points) {
+  const Vector3 &a = points[corner[0]], &b = points[corner[1]], &c = points[corner[2]];
   const Vector3 ab = b - a, bc = c - b, ca = a - c;
   const Vector3 cross = ab.cross(-ca);
   const double area = cross.norm();
@@ -36,17 +43,9 @@ TriangleShape shape_of(const Vector3& a, const Vector3& b, const Vector3& c) {
   return shape;
 }
 
-TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vector3>& points) {
-  return shape_of(points[corner[0]], points[corner[1]], points[corner[2]]);
-}
-
-void invert(TriangleShape& shape) {
-  for (float& angle : shape.angle) angle = -angle;
-  for (float& component : shape.normal) component = -component;
-}
-
-}  // namespace
-
+/// The cost of the quad made of two triangles across the side i of the first and j of the second, from its
+/// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
+/// above 2 for a concave quad.
 float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j) {
   constexpr float right = 1.57079633F;
   const float corners[4] = {first.angle[previous_index(i)], second.angle[previous_index(j)],
@@ -64,6 +63,8 @@ float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, 
   const float reflex = std::max(worst - 0.95F, 0.0F);
   return 0.5F * worst + 0.3F * squares + 4 * bad * bad + 10 * reflex + 2 * (1 - aligned);
 }
+
+}  // namespace
 
 CostedColoring::CostedColoring(const TriangleMesh& mesh, EdgeColoring colors)
     : EdgeColoring(std::move(colors)), triangles_(mesh.triangles.size()) {
@@ -132,7 +133,10 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
       if (neighbor >= 0) add(triangle_of(neighbor));
     }
     const Vector3 normal(result.normal[0], result.normal[1], result.normal[2]);
-    if (normal.dot(mean) < 0) invert(result);
+    if (normal.dot(mean) < 0) {
+      for (float& angle : result.angle) angle = -angle;
+      for (float& component : result.normal) component = -component;
+    }
     return result;
   };
   set_cost(side,

@@ -23,7 +23,8 @@ class CostedColoring : public EdgeColoring {
   int corner_at(Side s) const { return corners(triangle_of(s))[place_of(s)]; }
   int end_of(Side s) const { return corners(triangle_of(s))[next_index(index_of(s))]; }
   int apex_of(Side s) const { return corners(triangle_of(s))[previous_index(index_of(s))]; }
-  /// The cost of the quad made across a side: see pair_cost(). 0 on the boundary.
+  /// The cost of the quad made across a side, from its corner angles and its fold: 0 for a rectangle, above 2
+  /// for a concave quad. 0 on the boundary.
   float cost_of(Side s) const { return triangles_[triangle_of(s)].cost[place_of(s)]; }
 
   /// index_of() for an existing side. Tells the compiler that the index is not 3, which stands for "none".
@@ -58,16 +59,5 @@ class CostedColoring : public EdgeColoring {
 /// take it (ears first), else to the cheapest edge. Needs the costs. Time: linear (the order is a bucket
 /// sort). Based on: Karp & Sipser, Maximum matching in sparse random graphs (1981).
 void color_by_cost(CostedColoring& coloring, const ExecutionContext& context = {});
-
-/// Corner angles of a triangle and its unit normal. The angles of an inverted triangle are negative.
-struct TriangleShape {
-  float angle[3];
-  float normal[3];
-};
-
-/// The cost of the quad made of two triangles across the side i of the first and j of the second, from its
-/// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
-/// above 2 for a concave quad.
-float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j);
 
 }  // namespace quadrille

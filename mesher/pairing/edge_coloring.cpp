@@ -6,9 +6,6 @@
 #include <algorithm>
 #include <bit>
 #include <boost/dynamic_bitset.hpp>
-#include <utility>
-
-#include <fmt/format.h>
 
 namespace quadrille {
 
@@ -110,7 +107,7 @@ class BlankRemover {
   bool fill(Side side) {
     const int colors = available(coloring_, side);
     if (colors == 0) return false;
-    coloring_.color_blank(side, pick(colors, random_));
+    coloring_.set_color(side, pick(colors, random_));
     return true;
   }
 
@@ -204,42 +201,6 @@ Side EdgeColoring::swap_boundary_chain(Side boundary, int with) {
     return -1;
   }
   return swap_chain(next, from, with);
-}
-
-std::string validate(const EdgeColoring& coloring) {
-  for (int t = 0; t < coloring.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const Side side = make_side(t, i), twin = coloring.twin(side);
-      if (twin < 0) continue;
-      if (triangle_of(twin) >= coloring.size() || coloring.twin(twin) != side)
-        return fmt::format("triangle {} is not a neighbor of its neighbor {}", t, triangle_of(twin));
-      if (coloring.color(twin) != coloring.color(side))
-        return fmt::format("triangles {} and {} give the edge between them the colors {} and {}", t,
-                           triangle_of(twin), coloring.color(side), coloring.color(twin));
-    }
-  }
-  return {};
-}
-
-namespace {
-
-/// Visits each edge once, from the lower of its triangles.
-template <class Visit>
-void for_each_edge(const EdgeColoring& coloring, Visit&& visit) {
-  for (int t = 0; t < coloring.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const Side side = make_side(t, i), twin = coloring.twin(side);
-      if (twin < 0 || twin > side) visit(side);
-    }
-  }
-}
-
-}  // namespace
-
-int count_blanks(const EdgeColoring& coloring) {
-  int count = 0;
-  for_each_edge(coloring, [&](Side side) { count += coloring.color(side) == EdgeColoring::blank; });
-  return count;
 }
 
 namespace {

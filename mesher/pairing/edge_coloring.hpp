@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -76,13 +75,6 @@ class EdgeColoring {
     }
   }
 
-  /// Gives a blank side a color that neither of its triangles has.
-  void color_blank(Side side, int color) {
-    const Side other = twin(side);
-    cell(triangle_of(side)).places ^= place_of(color, index_of(side));
-    cell(triangle_of(other)).places ^= place_of(color, index_of(other));
-  }
-
   /// The side of a triangle that has a color; -1 if none has.
   Side side_of(int triangle, int color) const {
     const int i = cell(triangle).at(color);
@@ -115,7 +107,6 @@ class EdgeColoring {
   void swap_colors(int triangle, int a, int b) { cell(triangle).swap(a, b); }
   /// Exchanges two colors everywhere.
   void swap_colors(int a, int b) {
-    if (a == b) return;
     for (Cell& c : cells_) c.swap(a, b);
   }
 
@@ -201,14 +192,6 @@ class EdgeColoring {
 
   std::vector<Cell> cells_;  // the first stands for the outside, and never has a color
 };
-
-/// What is wrong with a coloring, naming the triangle: neighbors that do not refer to each other, or an edge
-/// to which its two triangles give different colors. Empty if nothing is wrong. No color can occur twice in a
-/// triangle, since each has only one place there.
-std::string validate(const EdgeColoring& coloring);
-
-/// The number of edges without a color.
-int count_blanks(const EdgeColoring& coloring);
 
 /// Gives each blank edge, in the order of the triangles, a random color of those that its triangles leave. An
 /// edge for which they leave none stays blank. \return the number of blanks. Time: linear.

@@ -3,10 +3,8 @@
 #include "mesher/pairing/free_triangles.hpp"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <functional>
 #include <queue>
-#include <unordered_map>
 #include <utility>
 
 #include "mesher/pairing/augmenting_paths.hpp"
@@ -192,28 +190,15 @@ class Walker {
   std::vector<int> recut_;
 };
 
-/// The connected piece of each triangle, as one of its triangles.
-std::vector<int> label_pieces(const EdgeColoring& coloring, const ExecutionContext& context) {
-  SparseCheck check(context);
-  boost::disjoint_sets_with_storage<> pieces(coloring.size());
-  std::vector<int> piece(coloring.size());
-  for (Side side = 0; side < 4 * coloring.size(); ++side) {
-    if (index_of(side) == 3) continue;
-    check();
-    if (coloring.twin(side) > side) pieces.union_set(triangle_of(side), triangle_of(coloring.twin(side)));
-  }
-  for (int t = 0; t < coloring.size(); ++t) piece[t] = static_cast<int>(pieces.find_set(t));
-  return piece;
-}
-
 }  // namespace
 
 int migrate_free_triangles(CostedColoring& coloring, const std::vector<Vector3>& points,
                            const ExecutionContext& context) {
   const std::vector<int> free = free_triangles(coloring);
   if (free.size() < 2) return static_cast<int>(free.size());
-  const std::vector<int> piece = label_pieces(coloring, context);
-  std::unordered_map<int, int> free_in;
+  std::vector<int> piece;
+  const auto twin_of = [&](Side side) { return coloring.twin(side); };
+  std::vector<int> free_in(number_pieces(coloring.size(), twin_of, piece), 0);
   for (int t : free) ++free_in[piece[t]];
   Walker walker(coloring, points, piece, free, context);
   for (int t : free) {

@@ -48,6 +48,7 @@ QuadMesh remove_color(const CostedColoring& coloring, const TriangleMesh& mesh) 
 
 /// Assigns the removed color by cost, then exchanges it along paths.
 CostedColoring color_by_quality(const TriangleMesh& mesh, ExecutionContext& context) {
+  const StageTimer timer(context, Stage::color);
   CostedColoring coloring(mesh, context);
   coloring.compute_costs(mesh.points, context);
   color_by_cost(coloring, context);
@@ -61,7 +62,8 @@ CostedColoring color_by_quality(const TriangleMesh& mesh, ExecutionContext& cont
 /// Edges on the boundary that keep it become blank, which leaves their triangles free. \param free out: the
 /// free triangles, one after the other along the boundary.
 EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std::vector<int>& free,
-                               const ExecutionContext& context) {
+                               ExecutionContext& context) {
+  const StageTimer timer(context, Stage::color);
   EdgeColoring coloring(mesh, context);
   Random random(seed);
   color_greedily(coloring, random);
@@ -82,10 +84,7 @@ EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std
 }
 
 QuadMesh recombine_by_quality(const TriangleMesh& mesh, ExecutionContext& context) {
-  const CostedColoring coloring = [&] {
-    const StageTimer timer(context, Stage::color);
-    return color_by_quality(mesh, context);
-  }();
+  const CostedColoring coloring = color_by_quality(mesh, context);
   const StageTimer timer(context, Stage::recombine);
   return remove_color(coloring, mesh);
 }
@@ -94,10 +93,7 @@ QuadMesh recombine_by_quality(const TriangleMesh& mesh, ExecutionContext& contex
 QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions& options,
                                ExecutionContext& context) {
   std::vector<int> free;
-  EdgeColoring coloring = [&] {
-    const StageTimer timer(context, Stage::color);
-    return color_as_in_paper(mesh, options.seed, free, context);
-  }();
+  EdgeColoring coloring = color_as_in_paper(mesh, options.seed, free, context);
   const StageTimer timer(context, Stage::recombine);
   if (options.leftovers == Leftovers::pair && augment(coloring, free, {.heading = &mesh}, context) > 0) {
     // Triangles that no path joins walk to each other by edge flips.

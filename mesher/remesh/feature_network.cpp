@@ -93,8 +93,10 @@ class FeatureFinder {
   }
 
   void number_patches() {
-    const auto is_open = [&](Side side) { return !marked_[triangle_of(side)][index_of(side)]; };
-    network_.patch_count = number_pieces(twins_, is_open, network_.patches);
+    const auto twin_of = [&](Side side) {
+      return marked_[triangle_of(side)][index_of(side)] ? -1 : twins_[triangle_of(side)][index_of(side)];
+    };
+    network_.patch_count = number_pieces(twins_.size(), twin_of, network_.patches);
   }
 
   void absorb_small_patches() {

@@ -521,7 +521,7 @@ class NodeSliding {
       state.mesh = &mesh;
       state.cad_face = &shape.faces[face];
       // Rows along a loop stay, and so do grids beside an edge with prescribed spacing.
-      state.keeps_inside = mesh.rows || (mesh.grid && nodes.plans[face].keeps_rows) || !mesh.off.empty();
+      state.keeps_inside = mesh.rows || (mesh.grid && nodes.plans[face].keeps_rows()) || !mesh.off.empty();
       state.turn_as_surface();
     }
     std::stable_sort(largest_first_.begin(), largest_first_.end(),

@@ -76,7 +76,7 @@ class Renumbering {
   bool keeps(const CadShape& shape, FaceId face) const {
     const FacePlan &old = before_.plans[face], &plan = now_.plans[face];
     const std::vector<EdgeId> edges = shape.faces[face].edges();
-    return old.stride == plan.stride && old.is_filled == plan.is_filled &&
+    return old.stride == plan.stride && old.is_filled() == plan.is_filled() &&
            std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) {
              return same_[edge] != 0 &&
                     before_.left_out.contains({face, edge}) == now_.left_out.contains({face, edge});
@@ -129,7 +129,7 @@ void check_sides(const CadShape& shape, FaceId face, const BoundaryNodes& nodes,
                  int& looks) {
   if (auto problem = crossing_problem(face, shape, chart.boundary, *chart.surface))
     throw FaceProblem(std::move(*problem));
-  if (looks == FaceRecord::most_looks || nodes.plans[face].is_filled) return;
+  if (looks == FaceRecord::most_looks || nodes.plans[face].is_filled()) return;
   auto problem = crowding_problem(face, chart.boundary, *chart.surface);
   looks = problem ? looks + 1 : FaceRecord::most_looks;
   if (problem) throw FaceProblem(std::move(*problem));

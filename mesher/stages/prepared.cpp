@@ -171,8 +171,4 @@ SizingField sizes_for(const Prepared& prepared, ExecutionContext& context) {
   return field;
 }
 
-SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
-  return sizes_for(Prepared(model, options, {.divides = false}), context);
-}
-
 }  // namespace quadrille

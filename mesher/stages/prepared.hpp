@@ -67,8 +67,4 @@ struct Prepared {
 /// budget.
 SizingField sizes_for(const Prepared& prepared, ExecutionContext& context);
 
-/// The sizing field that mesh() uses. Call it within on_threads(). Throws Error as mesh() does for invalid
-/// options or sizes that exceed the budget.
-SizingField wanted_sizes(const CadModel& model, const MeshOptions& options, ExecutionContext& context);
-
 }  // namespace quadrille

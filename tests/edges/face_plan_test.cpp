@@ -26,15 +26,15 @@ TEST(FacePlan, CountsTheQuadsOfAGrid) {
   const BoundaryNodes nodes = sampled(model, 2, 1);
   const FacePlan& plan = nodes.plans[face_id(1)];
   EXPECT_EQ(plan.grid_quads, 60);
-  EXPECT_TRUE(plan.is_filled);
-  EXPECT_FALSE(plan.has_kept_edge || plan.has_divided_edge || plan.keeps_rows);
+  EXPECT_TRUE(plan.is_filled());
+  EXPECT_FALSE(plan.has_kept_edge || plan.has_divided_edge || plan.keeps_rows());
 }
 
 TEST(FacePlan, KnowsHoles) {
   const CadModel plate = CadModel::read(sample_model("plate_with_holes").path());
   const BoundaryNodes holed = sampled(plate, 3, 1);
   const FacePlan& plan = holed.plans[face_id(1)];
-  EXPECT_FALSE(plan.is_filled);
+  EXPECT_FALSE(plan.is_filled());
   EXPECT_TRUE(plan.sides.has_holes());
   EXPECT_EQ(plan.grid_quads, 0);
 }

@@ -58,7 +58,7 @@ struct Ring {
       }
       nodes.edges.push_back(own);
     }
-    boundary = face_boundary(shape, face_id(1), surface, nodes);
+    boundary = face_boundary(shape, face_id(1), shape.faces[face_id(1)], surface, nodes);
   }
 
   std::optional<FaceProblem> problem() const {

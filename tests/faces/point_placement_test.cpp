@@ -33,7 +33,7 @@ struct Placed {
     const BoundaryNodes nodes = sample_edges(shape, field, stride(mesh_options.strategy),
                                              FaceFlags(shape.faces.size(), 1), SamplingPlan(shape), context);
     const FaceSurface surface(shape.faces[face]);
-    boundary = face_boundary(shape, face, surface, nodes);
+    boundary = face_boundary(shape, face, shape.faces[face], surface, nodes);
     domain = enclosed_domain(boundary);
     SizingField::Sampler size_at(field, face);
     placed = place_points(boundary, surface, domain, size_at, options, context);

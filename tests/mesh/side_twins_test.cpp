@@ -59,9 +59,8 @@ TEST(SideTwins, PiecesEndWhereTagsDo) {
     twins[triangle_of(b)][index_of(b)] = a;
   });
   std::vector<int> pieces;
-  EXPECT_EQ(number_pieces(
-                twins, [](Side) { return true; }, pieces),
-            2);
+  const auto twin_of = [&](Side side) { return twins[triangle_of(side)][index_of(side)]; };
+  EXPECT_EQ(number_pieces(twins.size(), twin_of, pieces), 2);
   for (std::size_t t = 0; t < pieces.size(); ++t) EXPECT_EQ(pieces[t], mesh.tags[t] - 1);
 }
 

@@ -8,6 +8,7 @@
 #include <boost/graph/max_cardinality_matching.hpp>
 #include <numeric>
 
+#include "tests/support/coloring_checks.hpp"
 #include "tests/support/triangulations.hpp"
 
 namespace quadrille {

@@ -7,8 +7,12 @@
 #include <cmath>
 #include <set>
 
+#include "tests/support/coloring_checks.hpp"
+
 namespace quadrille {
 namespace {
+
+using testing::validate;
 
 /// The coloring of two triangles (0, 1, 2) and (0, 2, 3), with costs.
 CostedColoring pair_of(const std::array<Vector3, 4>& corners) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/coloring_checks.hpp"
 #include "tests/support/triangulations.hpp"
 
 namespace quadrille {

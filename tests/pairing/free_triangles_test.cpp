@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/pairing/augmenting_paths.hpp"
+#include "tests/support/coloring_checks.hpp"
 #include "tests/support/triangulations.hpp"
 
 namespace quadrille {

@@ -55,7 +55,9 @@ void for_each_face(Visit&& visit) {
           SCOPED_TRACE(sample.name + " Face" + std::to_string(face.number()) + " at 1/" +
                        std::to_string(divisions));
           const FaceSurface surface(sampled.model.shape().faces[face]);
-          visit(sampled, face, surface, face_boundary(sampled.model.shape(), face, surface, sampled.nodes));
+          visit(sampled, face, surface,
+                face_boundary(sampled.model.shape(), face, sampled.model.shape().faces[face], surface,
+                              sampled.nodes));
           ++faces;
         }
       }
