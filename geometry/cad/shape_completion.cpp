@@ -14,7 +14,6 @@
 #include <Standard_Failure.hxx>
 #include <TopTools_MapOfOrientedShape.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
@@ -146,7 +145,7 @@ TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>
   const TopTools_IndexedMapOfShape copied = map_of(copy, TopAbs_FACE);
   const auto complete = [&](int face, const char* kind, const char* how, const auto& make) {
     try {
-      make();
+      make(TopoDS::Face(copied(face)));
       problems.push_back(fmt::format("Face{} lacked {} curves: they were made {}", face, kind, how));
     } catch (const Standard_Failure& problem) {
       problems.push_back(fmt::format("Face{} lacks {} curves, and they cannot be made ({})", face, kind,
@@ -154,16 +153,10 @@ TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>
     }
   };
   // First those in space, which all faces at an edge share.
-  for (const auto& [number, found] : incomplete) {
-    const TopoDS_Face& face = TopoDS::Face(copied(number));
-    if (!found.in_space)
-      complete(number, "spatial", "from its parametric ones", [&face] { add_spatial_curves(face); });
-  }
-  for (const auto& [number, found] : incomplete) {
-    const TopoDS_Face& face = TopoDS::Face(copied(number));
-    if (!found.on_face)
-      complete(number, "parametric", "by projection", [&face] { add_parametric_curves(face); });
-  }
+  for (const auto& [number, found] : incomplete)
+    if (!found.in_space) complete(number, "spatial", "from its parametric ones", add_spatial_curves);
+  for (const auto& [number, found] : incomplete)
+    if (!found.on_face) complete(number, "parametric", "by projection", add_parametric_curves);
   return copy;
 }
 

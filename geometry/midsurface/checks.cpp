@@ -6,11 +6,9 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
@@ -112,6 +110,7 @@ std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
     least = std::min(least, distance.Value());
   }
   std::vector<int> result;
+  result.reserve(distances.size());
   for (const auto& [number, distance] : distances) result.push_back(number);
   std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return distances[a] < distances[b]; });
   if (result.size() > 2) result.resize(2);

@@ -284,21 +284,22 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   auto& beside = result.beside;
   double held = 0, held_closed = 0;
   for (const auto& [face, fillet] : open) held += fillet.volume;
-  // The rounding outside of a bend takes off what the one inside adds.
-  const double there = volume - shell_volume(faces) + counted_twice(skin, walls, faces, {}).sum();
-  const double left_over = std::clamp(there / held, 0.0, 1.0);
-  for (auto& [face, fillet] : open) {
-    beside[walls_of(fillet.borders)] += fillet.volume;
-    held_closed += fillet.closed ? fillet.volume : 0;
-    if (!fillet.closed) fillet.volume *= left_over;
-  }
-  for (auto it = open.begin(); it != open.end();) {
-    const auto fillet = it++;
-    if (fillet->second.closed) closed.insert(open.extract(fillet));
-  }
   const auto missing = [&](const std::vector<JoinedFace>& from) {
     return volume - shell_volume(from) + counted_twice(skin, walls, from, result).sum();
   };
+  // The rounding outside of a bend takes off what the one inside adds.
+  const double left_over = std::clamp(missing(faces) / held, 0.0, 1.0);
+  for (auto it = open.begin(); it != open.end();) {
+    const auto entry = it++;
+    Fillet& fillet = entry->second;
+    beside[walls_of(fillet.borders)] += fillet.volume;
+    if (fillet.closed) {
+      held_closed += fillet.volume;
+      closed.insert(open.extract(entry));
+    } else {
+      fillet.volume *= left_over;
+    }
+  }
   if (stiffening(open, walls, faces) < worth_stiffness) open.clear();
   if (held_closed < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
   if (open.empty() && closed.empty()) return result;

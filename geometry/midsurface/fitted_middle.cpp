@@ -114,12 +114,9 @@ class GridLine {
   }
   /// Parameters to check between the i-th value and the next one; more of them for a straight line.
   std::vector<double> between(int i) const {
-    std::vector<double> result;
-    const auto shares =
-        spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
-    result.reserve(shares.size());
-    for (const double share : shares) result.push_back((1 - share) * value(i) + share * value(i + 1));
-    return result;
+    auto places = spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
+    for (double& place : places) place = (1 - place) * value(i) + place * value(i + 1);
+    return places;
   }
 
   TColStd_Array1OfReal values() const {

@@ -84,7 +84,7 @@ std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
     const BRepAdaptor_Curve curve(edge);
     for (const TopoDS_Shape& next : skin.faces_of(edge)) {
       if (next.IsSame(face.face())) continue;
-      const SkinFace& other = skin.faces()[skin.index_of(TopoDS::Face(next))];
+      const SkinFace& other = skin.faces()[skin.index_of(next)];
       for (const double place : places) {
         const gp_Pnt at = curve.Value((1 - place) * curve.FirstParameter() + place * curve.LastParameter());
         const auto own = face.outward(face.closest(at)), outward = other.outward(other.closest(at));
@@ -335,7 +335,18 @@ class GapFinder {
   std::vector<DrawnFace> drawn(const FaceOf& of, const std::optional<gp_Dir>& along, double depth,
                                double length) const {
     if (!along) return thickened(of, depth, length);
-    return {drawn_along(of, -depth * gp_Vec(*along), length * gp_Vec(*along))};
+    gp_Trsf move;
+    move.SetTranslation(-depth * gp_Vec(*along));
+    BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
+    BRepPrimAPI_MakePrism prism(moved.Shape(), length * gp_Vec(*along));
+    DrawnFace result{prism.Shape(), {}};
+    for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
+      for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
+        result.numbers.emplace_back(side, number);
+    });
+    result.numbers.emplace_back(prism.FirstShape(), face(of).number());
+    result.numbers.emplace_back(prism.LastShape(), face(of).number());
+    return {result};
   }
 
  private:
@@ -346,21 +357,6 @@ class GapFinder {
     const auto hit = solids_[of.solid].first_hit(face(of).point(uv), outward->Reversed());
     const double width = widths_[of.solid][of.face];
     return hit ? std::min(width, hit->distance) : width;
-  }
-
-  DrawnFace drawn_along(const FaceOf& of, const gp_Vec& start, const gp_Vec& way) const {
-    gp_Trsf move;
-    move.SetTranslation(start);
-    BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
-    BRepPrimAPI_MakePrism prism(moved.Shape(), way);
-    DrawnFace result{prism.Shape(), {}};
-    for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
-      for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
-        result.numbers.emplace_back(side, number);
-    });
-    result.numbers.emplace_back(prism.FirstShape(), face(of).number());
-    result.numbers.emplace_back(prism.LastShape(), face(of).number());
-    return result;
   }
 
   /// drawn() along the normals.
@@ -404,7 +400,7 @@ class GapFinder {
     for (TopExp_Explorer it(face(of).face(), TopAbs_EDGE); it.More(); it.Next()) {
       for (const TopoDS_Shape& beside : solids_[of.solid].faces_of(it.Current())) {
         if (!beside.IsSame(face(of).face()))
-          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(TopoDS::Face(beside))].number());
+          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(beside)].number());
       }
     }
   }

@@ -9,7 +9,6 @@
 #include <Standard_Failure.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>

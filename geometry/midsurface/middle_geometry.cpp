@@ -47,18 +47,13 @@ bool same_cones(const gp_Cone& a, const gp_Cone& b, double size) {
          std::abs(widening(a, a.Axis()) - widening(b, a.Axis())) < same_direction;
 }
 
-bool same_planes(const SkinFace& a, const SkinFace& b, double size) {
-  const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
-  return p.Axis().Direction().IsParallel(q.Axis().Direction(), same_direction) &&
-         p.Distance(q.Location()) < same_length * size;
-}
-
 bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
   const double near = same_length * size;
   switch (s.GetType()) {
     case GeomAbs_Plane:
-      return same_planes(a, b, size);
+      return s.Plane().Axis().Direction().IsParallel(t.Plane().Axis().Direction(), same_direction) &&
+             s.Plane().Distance(t.Plane().Location()) < near;
     case GeomAbs_Cylinder:
       return same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size) &&
              std::abs(s.Cylinder().Radius() - t.Cylinder().Radius()) < near;

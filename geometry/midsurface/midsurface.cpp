@@ -12,7 +12,6 @@
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
-#include <array>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <deque>
@@ -138,16 +137,14 @@ constexpr double slender = 12;
 std::vector<double> thickness_over_width(const SolidMiddle& middle, const std::vector<WallEnd>& ends) {
   const std::vector<int> group = width_groups(middle.walls, ends);
   std::vector<double> result(middle.faces.size(), 0);
-  for (std::size_t g = 0; g < middle.walls.size(); ++g) {
+  std::map<int, std::vector<std::size_t>> by_group;
+  for (std::size_t i = 0; i < result.size(); ++i) by_group[group[middle.faces[i].wall]].push_back(i);
+  for (const auto& [number, indices] : by_group) {
     std::vector<JoinedFace> faces;
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < middle.faces.size(); ++i) {
-      if (group[middle.faces[i].wall] != static_cast<int>(g)) continue;
-      faces.push_back(middle.faces[i]);
-      indices.push_back(i);
-    }
+    for (const std::size_t i : indices) faces.push_back(middle.faces[i]);
     for (const std::vector<std::size_t>& part : connected_parts(faces)) {
       std::vector<JoinedFace> own;
+      own.reserve(part.size());
       for (const std::size_t i : part) own.push_back(faces[i]);
       const double ratio = thickness_over_width(own);
       for (const std::size_t i : part) result[indices[i]] = ratio;
@@ -376,12 +373,10 @@ void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& n
     result.warnings.push_back(volume_sentence(result, middle.name, once));
   }
   if (twice.sum() <= worth_telling * result.volume) return;
-  std::vector<std::pair<double, int>> order;
+  std::set<std::pair<double, int>> order;  // the largest volume first
   for (const auto& [face, volume] : twice.faces) {
-    if (volume > 1e-3 * result.volume)
-      order.emplace_back(-volume, numbers.FindIndex(middle.faces[face].face));
+    if (volume > 1e-3 * result.volume) order.emplace(-volume, numbers.FindIndex(middle.faces[face].face));
   }
-  std::sort(order.begin(), order.end());
   std::vector<int> faces;
   faces.reserve(order.size());
   for (const auto& [volume, number] : order) faces.push_back(number);

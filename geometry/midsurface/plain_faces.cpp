@@ -7,7 +7,6 @@
 #include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Precision.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Pln.hxx>

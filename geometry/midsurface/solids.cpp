@@ -83,14 +83,6 @@ bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionConte
   return points.empty();
 }
 
-/// Adds the solids that fill the gaps.
-void close_gaps(const std::deque<Skin>& skins, const ExecutionContext& context, Solids& solids) {
-  const GapFillers fillers = fill_gaps(skins, context);
-  for (const TopoDS_Shape& filler : fillers.solids) solids.solids.push_back(right_way_out(filler));
-  for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
-    solids.numbers.Bind(it.Key(), it.Value());
-}
-
 Solids fused(const Solids& apart, const ExecutionContext& context) {
   TopTools_ListOfShape first, others;
   for (const TopoDS_Shape& solid : apart.solids) (first.IsEmpty() ? first : others).Append(solid);
@@ -119,7 +111,10 @@ std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join, const ExecutionC
   Solids solids = solids_of(shape);
   std::deque<Skin> skins = skins_of(solids, context);
   if (!join || skins.size() < 2) return skins;
-  close_gaps(skins, context, solids);
+  const GapFillers fillers = fill_gaps(skins, context);
+  for (const TopoDS_Shape& filler : fillers.solids) solids.solids.push_back(right_way_out(filler));
+  for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
+    solids.numbers.Bind(it.Key(), it.Value());
   const Solids whole = fused(solids, context);
   if (!hold(whole, points_inside(skins, context), context))
     throw failure("", "the solids cannot be joined to one");

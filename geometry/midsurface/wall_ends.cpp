@@ -216,16 +216,6 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
   return result;
 }
 
-/// The same at any of the depths that are searched: the floor behind an edge may lean. \param t thickness of
-/// the edge's wall.
-bool begins_anywhere_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
-                            const NextWall& next, double t) {
-  if (begins_behind(skin, wall, edge, at, next)) return true;
-  return std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
-    return begins_behind(skin, wall, edge, at, {next.wall, next.away, depth * t, at});
-  });
-}
-
 /// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
 /// behind it. \param t thickness of the edge's wall. \param guess of the depth, which is returned if the wall
 /// is at none of the depths that are searched.
@@ -332,7 +322,13 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   constexpr int count = 32;
   const double first = edge.first(), length = edge.last() - first;
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
-  const auto begins = [&](double t) { return begins_anywhere_behind(skin, wall, edge, t, next, thickness); };
+  // At any of the depths that are searched: the floor behind an edge may lean.
+  const auto begins = [&](double t) {
+    return begins_behind(skin, wall, edge, t, next) ||
+           std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
+             return begins_behind(skin, wall, edge, t, {next.wall, next.away, depth * thickness, t});
+           });
+  };
   const auto is_material = [&](double t) {
     return skin.in_material(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
   };
@@ -394,8 +390,7 @@ std::vector<FaceEdge> borders_of(const SkinFace& face, const Skin& skin, const s
   std::vector<FaceEdge> result;
   for (const TopoDS_Edge& edge : edges_of(face.face())) {
     const TopTools_ListOfShape& around = skin.faces_of(edge);
-    const int first = skin.index_of(TopoDS::Face(around.First())),
-              last = skin.index_of(TopoDS::Face(around.Last()));
+    const int first = skin.index_of(around.First()), last = skin.index_of(around.Last());
     if (surfaces[first] == surfaces[last]) continue;
     const int other = around.First().IsSame(face.face()) ? last : first;
     result.emplace_back(face, skin.faces()[other], edge);
@@ -425,12 +420,6 @@ std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& 
     }
   }
   return result;
-}
-
-/// Whether the wall's middle continues past the edge inside the material.
-bool runs_on(const Skin& skin, const FaceEdge& edge, double thickness) {
-  const double at = 0.5 * (edge.first() + edge.last());
-  return skin.in_material(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
 }
 
 using EdgeEnds = std::vector<std::pair<gp_Pnt, gp_Dir>>;
@@ -477,9 +466,12 @@ class RimEnds {
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
     std::map<const FaceEdge*, bool> known;
+    // Whether the wall's middle continues past the edge inside the material.
     const auto goes_on = [&](const FaceEdge& edge) {
       const auto [entry, is_new] = known.try_emplace(&edge, false);
-      if (is_new) entry->second = runs_on(skin_, edge, t);
+      const double at = 0.5 * (edge.first() + edge.last());
+      if (is_new)
+        entry->second = skin_.in_material(edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at)));
       return entry->second;
     };
     for (const FaceEdge& edge : edges) {
@@ -601,11 +593,6 @@ void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
 }
 
-/// Whether the middles of two walls share bounds.
-bool goes_on_into(const Wall& wall, int next) {
-  return std::find(wall.goes_on.begin(), wall.goes_on.end(), next) != wall.goes_on.end();
-}
-
 /// Finds where walls end and others begin.
 class WallEnds {
  public:
@@ -664,7 +651,8 @@ class WallEnds {
   bool add(int wall, int side, const FaceEdge& edge, const NextWall& next,
            const std::vector<NextWall>& beside) {
     const double t = walls_[wall].thickness;
-    if (goes_on_into(walls_[wall], next.wall)) return false;
+    const std::vector<int>& without_fence = walls_[wall].goes_on;
+    if (std::find(without_fence.begin(), without_fence.end(), next.wall) != without_fence.end()) return false;
     const bool riser = next.away > close_by * t;
     if (riser && !stands_on(walls_, wall, next.wall)) return false;
     if (meet_in_corner(skin_, walls_, wall, next, edge)) return false;
@@ -793,7 +781,7 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
     if (wall < 0) continue;
     for (const TopoDS_Edge& border : edges_of(face.face())) {
       for (const TopoDS_Shape& next : skin.faces_of(border)) {
-        const int fillet = skin.index_of(TopoDS::Face(next));
+        const int fillet = skin.index_of(next);
         const SkinFace& beside = skin.faces()[fillet];
         if (wall_of[fillet] >= 0) continue;
         const FaceEdge edge(face, beside, border);

@@ -35,7 +35,7 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
       result.insert(face);
       for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
         for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
-          const int index = skin.index_of(TopoDS::Face(neighbor));
+          const int index = skin.index_of(neighbor);
           if (in_walls.count(index) == 0) result.insert(index);
         }
       }

@@ -137,8 +137,8 @@ using Touching = std::set<std::pair<int, int>>;
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
   Touching result;
   for (const TopTools_ListOfShape& faces : skin.faces_of_edges()) {
-    const int a = surfaces[skin.index_of(TopoDS::Face(faces.First()))];
-    const int b = surfaces[skin.index_of(TopoDS::Face(faces.Last()))];
+    const int a = surfaces[skin.index_of(faces.First())];
+    const int b = surfaces[skin.index_of(faces.Last())];
     result.insert({a, b});
     result.insert({b, a});
   }

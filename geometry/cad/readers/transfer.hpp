@@ -12,6 +12,7 @@
 #include <Standard_Failure.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <array>
 #include <cstddef>
 #include <string>
