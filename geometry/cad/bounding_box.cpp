@@ -7,7 +7,6 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
-#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
@@ -38,10 +37,8 @@ class Reach {
   }
   void add(const Bnd_Box& box) {
     if (box.IsVoid()) return;
-    double x0 = 0, y0 = 0, z0 = 0, x1 = 0, y1 = 0, z1 = 0;
-    box.Get(x0, y0, z0, x1, y1, z1);
-    add(Vector3(x0, y0, z0));
-    add(Vector3(x1, y1, z1));
+    add(to_vector(box.CornerMin()));
+    add(to_vector(box.CornerMax()));
   }
   void add(const Reach& other) {
     for (int d = 0; d < 6; ++d) reach_[d] = std::max(reach_[d], other[d]);

@@ -10,12 +10,10 @@
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
 #include <Standard_Failure.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <algorithm>
 #include <boost/interprocess/streams/bufferstream.hpp>
 #include <fstream>
 #include <istream>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

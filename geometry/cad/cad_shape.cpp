@@ -5,14 +5,10 @@
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
-#include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 
@@ -22,6 +18,7 @@
 #include "geometry/cad/curve_ends.hpp"
 #include "geometry/cad/seams.hpp"
 #include "geometry/cad/shape_completion.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -35,20 +32,16 @@ CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
 }
 
 void CadShape::read_topology() {
-  TopTools_IndexedMapOfShape face_map, solid_map, shell_map;
-  TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+  TopTools_IndexedMapOfShape face_map = map_of(shape, TopAbs_FACE);
   const bool seams_lack = std::any_of(face_map.cbegin(), face_map.cend(), [](const TopoDS_Shape& face) {
     return lacks_seam(without_idle_wires(TopoDS::Face(face)));
   });
   if (seams_lack) {
     shape = BRepBuilderAPI_Copy(shape, Standard_True).Shape();
-    face_map.Clear();
-    TopExp::MapShapes(shape, TopAbs_FACE, face_map);
+    face_map = map_of(shape, TopAbs_FACE);
   }
-  TopExp::MapShapes(shape, TopAbs_SOLID, solid_map);
-  TopExp::MapShapes(shape, TopAbs_SHELL, shell_map);
-  solids = solid_map.Extent();
-  shells = shell_map.Extent();
+  solids = map_of(shape, TopAbs_SOLID).Extent();
+  shells = map_of(shape, TopAbs_SHELL).Extent();
   std::vector<TopoDS_Face> sources;
   for (int i = 1; i <= face_map.Extent(); ++i) {
     const TopoDS_Face face = without_idle_wires(TopoDS::Face(face_map(i)));
@@ -59,9 +52,8 @@ void CadShape::read_topology() {
     if (!sources.back().IsSame(face))
       problems.push_back(fmt::format("Face{} has no wire: the natural bounds of its surface are used", i));
   }
-  TopTools_IndexedMapOfShape edge_map, vertex_map;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edge_map);
-  TopExp::MapShapes(shape, TopAbs_VERTEX, vertex_map);
+  TopTools_IndexedMapOfShape edge_map = map_of(shape, TopAbs_EDGE);
+  TopTools_IndexedMapOfShape vertex_map = map_of(shape, TopAbs_VERTEX);
   const int own_edges = edge_map.Extent(), own_vertices = vertex_map.Extent();
   std::vector<EdgePiece> pieces;
   if (seams_lack) pieces = add_seams(sources, problems);

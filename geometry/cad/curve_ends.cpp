@@ -33,15 +33,27 @@ Vector3 point_on(const CadEdge& edge, double share) {
 
 class CurveEndMender {
  public:
-  explicit CurveEndMender(CadShape& shape) : shape_(shape) {}
+  explicit CurveEndMender(CadShape& shape) : shape_(shape), ends_(shape.vertices.size()) {
+    for (const EdgeId id : shape.edges.ids()) {
+      const CadEdge& edge = shape.edges[id];
+      if (edge.degenerate || !(edge.length > 0)) continue;
+      for (const bool last : {false, true}) {
+        const VertexId vertex = last ? edge.last_vertex : edge.first_vertex;
+        if (vertex.exists()) ends_[vertex].push_back({id, last, point_on(edge, last ? 1 : 0)});
+      }
+    }
+  }
 
   void run() {
+    std::set<VertexId> wrong;
     for (const CadEdge& edge : shape_.edges) {
-      if (is_swallowed(edge)) wrong_.insert(edge.first_vertex);
+      if (is_swallowed(edge)) wrong.insert(edge.first_vertex);
     }
-    find_far_vertices();
-    if (wrong_.empty()) return;
-    for (const VertexId vertex : wrong_) split(vertex);
+    for (const VertexId vertex : shape_.vertices.ids()) {
+      if (is_far(vertex)) wrong.insert(vertex);
+    }
+    if (wrong.empty()) return;
+    for (const VertexId vertex : wrong) split(vertex);
     drop_dangling();
     for (const FaceId face : shape_.faces.ids()) close_wires(face);
   }
@@ -62,46 +74,26 @@ class CurveEndMender {
     return true;
   }
 
-  /// Finds vertices that all their curves miss by more than the length of the shortest one.
-  void find_far_vertices() {
-    struct Near {
-      double distance = std::numeric_limits<double>::infinity(), shortest = distance;
-    };
-    IdVector<VertexId, Near> near(shape_.vertices.size());
-    for (const CadEdge& edge : shape_.edges) {
-      if (edge.degenerate || !(edge.length > 0)) continue;
-      for (const bool last : {false, true}) {
-        const VertexId vertex = last ? edge.last_vertex : edge.first_vertex;
-        if (!vertex.exists()) continue;
-        Near& at = near[vertex];
-        at.distance = std::min(at.distance, (point_on(edge, last ? 1 : 0) - shape_.vertices[vertex]).norm());
-        at.shortest = std::min(at.shortest, edge.length);
-      }
-    }
-    for (const VertexId vertex : near.ids()) {
-      const Near& at = near[vertex];
-      if (std::isfinite(at.distance) && at.distance > std::max(at.shortest, shape_.vertex_tolerances[vertex]))
-        wrong_.insert(vertex);
-    }
+  /// The distance of a vertex from the nearest end of its curves; infinite without curves.
+  double nearest_end(VertexId vertex) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CurveEnd& end : ends_[vertex])
+      nearest = std::min(nearest, (end.point - shape_.vertices[vertex]).norm());
+    return nearest;
   }
 
-  std::vector<CurveEnd> ends_at(VertexId vertex) const {
-    std::vector<CurveEnd> ends;
-    for (const EdgeId id : shape_.edges.ids()) {
-      const CadEdge& edge = shape_.edges[id];
-      if (edge.degenerate || !(edge.length > 0)) continue;
-      for (const bool last : {false, true}) {
-        if ((last ? edge.last_vertex : edge.first_vertex) == vertex)
-          ends.push_back({id, last, point_on(edge, last ? 1 : 0)});
-      }
-    }
-    return ends;
+  /// Whether all curves of a vertex miss it by more than the length of the shortest one.
+  bool is_far(VertexId vertex) const {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const CurveEnd& end : ends_[vertex]) shortest = std::min(shortest, shape_.edges[end.edge].length);
+    const double nearest = nearest_end(vertex);
+    return std::isfinite(nearest) && nearest > std::max(shortest, shape_.vertex_tolerances[vertex]);
   }
 
   /// Makes one vertex of each place where curves end. The place with the most ends keeps the number.
   void split(VertexId vertex) {
     constexpr double reach_share = 0.01;  // share of the length of the shortest edge there
-    std::vector<CurveEnd> left = ends_at(vertex);
+    std::vector<CurveEnd> left = ends_[vertex];
     double shortest = shape_.edges[left.front().edge].length, tolerance = 0;
     for (const CurveEnd& end : left) {
       shortest = std::min(shortest, shape_.edges[end.edge].length);
@@ -123,20 +115,15 @@ class CurveEndMender {
     std::stable_sort(places.begin(), places.end(),
                      [](const auto& a, const auto& b) { return a.size() > b.size(); });
     shape_.problems.push_back(fmt::format(
-        "{}: {} used instead", what_is_wrong(vertex, places),
+        "{}: {} used instead", what_is_wrong(vertex),
         places.size() == 1 ? "the place where its curves end is"
                            : fmt::format("the {} places where its curves end are", places.size())));
     for (std::size_t i = 0; i < places.size(); ++i)
       place_vertex(i == 0 ? vertex : new_vertex(), places[i], tolerance);
   }
 
-  std::string what_is_wrong(VertexId vertex, const std::vector<std::vector<CurveEnd>>& places) const {
-    const double tolerance = shape_.vertex_tolerances[vertex];
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const auto& place : places) {
-      for (const CurveEnd& end : place)
-        nearest = std::min(nearest, (end.point - shape_.vertices[vertex]).norm());
-    }
+  std::string what_is_wrong(VertexId vertex) const {
+    const double tolerance = shape_.vertex_tolerances[vertex], nearest = nearest_end(vertex);
     if (nearest > tolerance)
       return fmt::format("Vertex{} lies {} away from where its curves end", vertex.number(),
                          number_text(nearest));
@@ -241,8 +228,8 @@ class CurveEndMender {
   }
 
   CadShape& shape_;
-  std::set<VertexId> wrong_;  ///< vertices to split
-  std::set<EdgeId> touched_;  ///< edges whose vertices changed
+  IdVector<VertexId, std::vector<CurveEnd>> ends_;  ///< as they were at first
+  std::set<EdgeId> touched_;                        ///< edges whose vertices changed
 };
 
 }  // namespace

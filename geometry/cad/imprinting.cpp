@@ -8,26 +8,20 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepTools_Modifier.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Precision.hxx>
 #include <ShapeCustom_SweptToElementary.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeShape.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "geometry/cad/face_exchange.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -48,9 +42,7 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape) {
   }
   for (TopExp_Explorer part(shape, TopAbs_FACE, TopAbs_SHELL); part.More(); part.Next())
     parts.Add(part.Current());
-  std::vector<TopoDS_Shape> list;  // one by one: for GCC 16, OpenCASCADE's iterators make no range
-  for (int i = 1; i <= parts.Extent(); ++i) list.push_back(parts(i));
-  return list;
+  return {parts.cbegin(), parts.cend()};
 }
 
 /// A curve's ends and middle.
@@ -76,11 +68,9 @@ struct Course {
 /// Whether two edges of a face lie on each other, as the seams in IGES files do. The fuse makes them one
 /// edge, but gives it one parametric curve and loses the face.
 bool has_open_seam(const TopoDS_Shape& face, double tolerance) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(face, TopAbs_EDGE, edges);
   std::vector<Course> courses;
-  for (int i = 1; i <= edges.Extent(); ++i) {
-    const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
+  for (const TopoDS_Shape& part : list_of(face, TopAbs_EDGE)) {
+    const TopoDS_Edge& edge = TopoDS::Edge(part);
     if (BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, TopoDS::Face(face))) continue;
     const Course course(edge);
     if (std::any_of(courses.begin(), courses.end(),
@@ -142,8 +132,7 @@ class Fuse {
 
   /// Sews a part with itself, if need be.
   void close_seams(TopoDS_Shape& part, double tolerance) {
-    TopTools_IndexedMapOfShape faces, all;
-    TopExp::MapShapes(part, TopAbs_FACE, faces);
+    const TopTools_IndexedMapOfShape faces = map_of(part, TopAbs_FACE);
     if (std::none_of(faces.cbegin(), faces.cend(),
                      [&](const TopoDS_Shape& face) { return has_open_seam(face, tolerance); }))
       return;
@@ -156,6 +145,7 @@ class Fuse {
           return face.IsNull() || face.ShapeType() != TopAbs_FACE;
         }))
       return;
+    TopTools_IndexedMapOfShape all;
     TopExp::MapShapes(part, all);
     for (int i = 1; i <= all.Extent(); ++i) replace(all(i), sewing.ModifiedSubShape(all(i)));
     sewn_ = true;
@@ -178,13 +168,11 @@ class Fuse {
 /// For each face, edge or vertex of the shape before: the numbers of those that it became, ascending.
 std::vector<std::vector<int>> numbers_of_pieces(Fuse& fuse, const TopoDS_Shape& before,
                                                 const TopoDS_Shape& after, TopAbs_ShapeEnum kind) {
-  TopTools_IndexedMapOfShape old, numbers;
-  TopExp::MapShapes(before, kind, old);
-  TopExp::MapShapes(after, kind, numbers);
+  const TopTools_IndexedMapOfShape numbers = map_of(after, kind);
   std::vector<std::vector<int>> pieces;
-  for (int i = 1; i <= old.Extent(); ++i) {
+  for (const TopoDS_Shape& old : list_of(before, kind)) {
     std::vector<int>& found = pieces.emplace_back();
-    for (const TopoDS_Shape& piece : fuse.images_of(old(i)))
+    for (const TopoDS_Shape& piece : fuse.images_of(old))
       if (const int number = numbers.FindIndex(piece); number > 0) found.push_back(number);
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -193,47 +181,29 @@ std::vector<std::vector<int>> numbers_of_pieces(Fuse& fuse, const TopoDS_Shape& 
 }
 
 /// The pieces of the faces in the order in which they are numbered.
-class Numbering {
- public:
-  explicit Numbering(const std::vector<std::vector<TopoDS_Shape>>& images) {
-    // Faces of one piece come first: a face that others cut can take another of its pieces.
-    place_.resize(images.size());
-    for (std::size_t i = 0; i < images.size(); ++i)
-      if (images[i].size() == 1) take(i, images[i]);
-    for (std::size_t i = 0; i < images.size(); ++i)
-      if (images[i].size() > 1) take(i, images[i]);
-    for (const std::vector<TopoDS_Shape>& own : images)
-      for (const TopoDS_Shape& piece : own)
-        if (taken_.Add(piece)) place_.push_back(piece);
-    for (std::size_t i = 0; i < place_.size();) {
-      if (!place_[i].IsNull()) {
-        ++i;
-        continue;
-      }
-      place_[i] = place_.back();
-      place_.pop_back();
+std::vector<TopoDS_Shape> numbered(const std::vector<std::vector<TopoDS_Shape>>& images) {
+  std::vector<TopoDS_Shape> place(images.size());
+  TopTools_MapOfShape taken;
+  const auto is_free = [&](const TopoDS_Shape& piece) { return taken.Add(piece); };
+  // Faces of one piece come first: a face that others cut can take another of its pieces.
+  for (const bool whole : {true, false}) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      if ((images[i].size() == 1) != whole) continue;
+      const auto free = std::find_if(images[i].begin(), images[i].end(), is_free);
+      if (free != images[i].end()) place[i] = *free;
     }
   }
-
-  std::vector<TopoDS_Shape>& faces() { return place_; }
-
- private:
-  void take(std::size_t face, const std::vector<TopoDS_Shape>& pieces) {
-    const auto free = std::find_if(pieces.begin(), pieces.end(),
-                                   [&](const TopoDS_Shape& piece) { return taken_.Add(piece); });
-    if (free != pieces.end()) place_[face] = *free;
+  for (const std::vector<TopoDS_Shape>& own : images)
+    std::copy_if(own.begin(), own.end(), std::back_inserter(place), is_free);
+  for (std::size_t i = 0; i < place.size();) {
+    if (!place[i].IsNull()) {
+      ++i;
+      continue;
+    }
+    place[i] = place.back();
+    place.pop_back();
   }
-
-  std::vector<TopoDS_Shape> place_;
-  TopTools_MapOfShape taken_;
-};
-
-TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& shapes) {
-  const BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const TopoDS_Shape& shape : shapes) builder.Add(compound, shape);
-  return compound;
+  return place;
 }
 
 /// The solids after the fuse, each once. Shells have no images of their own: their faces have.
@@ -254,34 +224,30 @@ Imprint imprint(const TopoDS_Shape& shape, double tolerance) {
   Fuse fuse(shape, tolerance);
   if (fuse.is_idle()) {
     const auto all_of = [&](TopAbs_ShapeEnum kind) {
-      TopTools_IndexedMapOfShape all;
-      TopExp::MapShapes(shape, kind, all);
-      std::vector<std::vector<int>> same;
-      for (int i = 1; i <= all.Extent(); ++i) same.push_back({i});
+      std::vector<std::vector<int>> same(map_of(shape, kind).Extent());
+      for (std::size_t i = 0; i < same.size(); ++i) same[i] = {static_cast<int>(i) + 1};
       return same;
     };
     return {shape, all_of(TopAbs_FACE), all_of(TopAbs_EDGE), all_of(TopAbs_VERTEX), {}};
   }
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
   std::vector<std::vector<TopoDS_Shape>> pieces;
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    pieces.push_back(fuse.images_of(faces(i)));
-    if (pieces.back().empty()) throw Standard_Failure(fmt::format("Face{} is lost", i).c_str());
+  for (const TopoDS_Shape& face : list_of(shape, TopAbs_FACE)) {
+    pieces.push_back(fuse.images_of(face));
+    if (pieces.back().empty()) throw Standard_Failure(fmt::format("Face{} is lost", pieces.size()).c_str());
   }
-  Numbering numbering(pieces);
+  std::vector<TopoDS_Shape> faces = numbered(pieces);
   const TopoDS_Compound solids = solids_of(fuse);
   TopTools_IndexedMapOfShape numbers;
-  for (const TopoDS_Shape& face : numbering.faces()) numbers.Add(face);
+  for (const TopoDS_Shape& face : faces) numbers.Add(face);
   TopExp::MapShapes(solids, TopAbs_FACE, numbers);
-  if (numbers.Extent() != static_cast<int>(numbering.faces().size()))
+  if (numbers.Extent() != static_cast<int>(faces.size()))
     throw Standard_Failure("faces appear that are not pieces of the model's faces");
   Imprint result;
-  result.pieces = numbers_of_pieces(fuse, shape, compound_of(numbering.faces()), TopAbs_FACE);
-  result.orientation = orient_alike(numbering.faces(), faces_in_solids(solids, numbers), result.pieces);
+  result.pieces = numbers_of_pieces(fuse, shape, compound_of(faces), TopAbs_FACE);
+  result.orientation = orient_alike(faces, faces_in_solids(solids, numbers), result.pieces);
   // Faces are numbered in the order in which they are met. So they come first, before the solids made of
   // them.
-  const TopoDS_Compound all = compound_of({compound_of(numbering.faces()), solids});
+  const TopoDS_Compound all = compound_of(std::vector{compound_of(faces), solids});
   result.shape = all;
   result.edge_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_EDGE);
   result.vertex_pieces = numbers_of_pieces(fuse, shape, all, TopAbs_VERTEX);

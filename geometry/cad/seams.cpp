@@ -4,12 +4,12 @@
 #include "geometry/cad/seams.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Curve2d.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2dInt_GInter.hxx>
 #include <Geom2d_Curve.hxx>
 #include <IntRes2d_IntersectionPoint.hxx>
@@ -76,6 +76,7 @@ class ClosedSurfaceFace {
     for (SampledWire& wire : wires_) wire.crosses_seam = crosses_seam(wire);
   }
 
+  /// Whether a wire runs around the surface without a seam.
   bool goes_round() const {
     return usable() && std::any_of(wires_.begin(), wires_.end(), [&](const SampledWire& wire) {
              return !wire.has_seam && !is_closed(wire);
@@ -209,14 +210,9 @@ std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> crossings(const TopoDS_Fac
     }
     return cuts.emplace_back(TopoDS::Edge(edge.Oriented(TopAbs_FORWARD)), std::vector<Cut>()).second;
   };
-  const auto inside = [](const Geom2dAdaptor_Curve& curve, double t) {
+  const auto inside = [](const BRepAdaptor_Curve2d& curve, double t) {
     const double range = curve.LastParameter() - curve.FirstParameter(), margin = 1e-7 * range;
     return t > curve.FirstParameter() + margin && t < curve.LastParameter() - margin;
-  };
-  const auto adapted = [&](const TopoDS_Edge& edge) {
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    return Geom2dAdaptor_Curve(curve, first, last);
   };
   const BRep_Builder builder;
   for (const SampledWire& hole : sampled.wires()) {
@@ -224,9 +220,9 @@ std::vector<std::pair<TopoDS_Edge, std::vector<Cut>>> crossings(const TopoDS_Fac
     for (const SampledWire& outer : sampled.wires()) {
       for (const TopoDS_Edge& seam : outer.edges) {
         if (!BRep_Tool::IsClosed(seam, face)) continue;
-        const Geom2dAdaptor_Curve seam_curve = adapted(seam);
+        const BRepAdaptor_Curve2d seam_curve(seam, face);
         for (const TopoDS_Edge& rim : hole.edges) {
-          const Geom2dAdaptor_Curve rim_curve = adapted(rim);
+          const BRepAdaptor_Curve2d rim_curve(rim, face);
           const Geom2dInt_GInter crossing(rim_curve, seam_curve, Precision::PConfusion(),
                                           Precision::PConfusion());
           for (int i = 1; crossing.IsDone() && i <= crossing.NbPoints(); ++i) {
@@ -283,8 +279,7 @@ std::vector<TopoDS_Wire> chained(std::vector<TopoDS_Edge> edges, const TopoDS_Fa
     TopoDS_Wire wire;
     builder.MakeWire(wire);
     const Vector2 start = end_of(edges.front(), false);
-    auto next = edges.begin();
-    while (true) {
+    for (auto next = edges.begin(); next != edges.end();) {
       const Vector2 end = end_of(*next, true);
       builder.Add(wire, *next);
       edges.erase(next);
@@ -296,7 +291,6 @@ std::vector<TopoDS_Wire> chained(std::vector<TopoDS_Edge> edges, const TopoDS_Fa
         nearest = distance;
         next = it;
       }
-      if (next == edges.end()) break;
     }
     wire.Closed(Standard_True);
     wires.push_back(wire);

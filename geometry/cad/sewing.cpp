@@ -4,18 +4,11 @@
 
 #include <BOPTools_AlgoTools3D.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRep_Tool.hxx>
 #include <IntTools_Context.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <map>
 
-#include "geometry/cad/face_exchange.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -26,8 +19,7 @@ using Faces = std::vector<TopoDS_Shape>;
 /// The edges that bound a face, by number, ascending: no seams, no poles.
 std::vector<int> rim_of(const TopoDS_Shape& face, const TopTools_IndexedMapOfShape& edges) {
   std::map<int, int> uses;
-  for (TopExp_Explorer edge(face, TopAbs_EDGE); edge.More(); edge.Next())
-    if (!BRep_Tool::Degenerated(TopoDS::Edge(edge.Current()))) ++uses[edges.FindIndex(edge.Current())];
+  for (const TopoDS_Edge& edge : edges_of(face)) ++uses[edges.FindIndex(edge)];
   std::vector<int> rim;
   for (const auto& [edge, times] : uses)
     if (times == 1) rim.push_back(edge);
@@ -62,9 +54,9 @@ bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance
 }
 
 Sewn sew(const TopoDS_Shape& shape, double tolerance) {
-  TopTools_IndexedMapOfShape faces, edges_before, edges_of_sewn, edges_after;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges_before);
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
+  const int edges_before = map_of(shape, TopAbs_EDGE).Extent();
+  TopTools_IndexedMapOfShape edges_of_sewn;
   BRepBuilderAPI_Sewing sewing(tolerance);
   sewing.SetNonManifoldMode(Standard_True);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
@@ -80,13 +72,12 @@ Sewn sew(const TopoDS_Shape& shape, double tolerance) {
     return !face.IsNull() && face.ShapeType() == TopAbs_FACE;
   });
   if (all_are_faces) {
-    if (edges_of_sewn.Extent() < edges_before.Extent())
+    if (edges_of_sewn.Extent() < edges_before)
       result.orientation = orient_alike(sewn, faces_in_solids(shape, faces));
     result.coincident = coincident_faces(sewn, edges_of_sewn, tolerance);
   }
   result.shape = with_faces(shape, faces, sewn);
-  TopExp::MapShapes(result.shape, TopAbs_EDGE, edges_after);
-  result.joined = edges_before.Extent() - edges_after.Extent();
+  result.joined = edges_before - map_of(result.shape, TopAbs_EDGE).Extent();
   return result;
 }
 

@@ -6,22 +6,14 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <ShapeFix_Wire.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfOrientedShape.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
@@ -30,6 +22,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -113,11 +106,9 @@ bool runs_there_and_back(const TopoDS_Wire& wire, const TopoDS_Face& face) {
 
 /// Whether a vertex of a wire is on one of its edges only.
 bool has_loose_end(const TopoDS_Shape& wire) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(wire, TopAbs_EDGE, edges);
   TopTools_MapOfShape odd;
-  for (int i = 1; i <= edges.Extent(); ++i) {
-    for (TopExp_Explorer it(edges(i), TopAbs_VERTEX); it.More(); it.Next()) {
+  for (const TopoDS_Shape& edge : list_of(wire, TopAbs_EDGE)) {
+    for (TopExp_Explorer it(edge, TopAbs_VERTEX); it.More(); it.Next()) {
       const TopoDS_Shape vertex = it.Current().Oriented(TopAbs_FORWARD);
       if (!odd.Add(vertex)) odd.Remove(vertex);
     }
@@ -143,8 +134,7 @@ bool has_no_border(const Handle(Geom_Surface) & surface) {
 }  // namespace
 
 TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>& problems) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
   std::vector<std::pair<int, Completeness>> incomplete;
   for (int i = 1; i <= faces.Extent(); ++i) {
     const Completeness found = curves_of(TopoDS::Face(faces(i)));
@@ -152,11 +142,10 @@ TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>
   }
   if (incomplete.empty()) return shape;
   const TopoDS_Shape copy = BRepBuilderAPI_Copy(shape, Standard_False).Shape();
-  TopTools_IndexedMapOfShape copied;
-  TopExp::MapShapes(copy, TopAbs_FACE, copied);
+  const TopTools_IndexedMapOfShape copied = map_of(copy, TopAbs_FACE);
   const auto complete = [&](int face, const char* kind, const char* how, const auto& make) {
     try {
-      make();
+      make(TopoDS::Face(copied(face)));
       problems.push_back(fmt::format("Face{} lacked {} curves: they were made {}", face, kind, how));
     } catch (const Standard_Failure& problem) {
       problems.push_back(fmt::format("Face{} lacks {} curves, and they cannot be made ({})", face, kind,
@@ -164,16 +153,10 @@ TopoDS_Shape with_all_curves(const TopoDS_Shape& shape, std::vector<std::string>
     }
   };
   // First those in space, which all faces at an edge share.
-  for (const auto& [number, found] : incomplete) {
-    const TopoDS_Face& face = TopoDS::Face(copied(number));
-    if (!found.in_space)
-      complete(number, "spatial", "from its parametric ones", [&face] { add_spatial_curves(face); });
-  }
-  for (const auto& [number, found] : incomplete) {
-    const TopoDS_Face& face = TopoDS::Face(copied(number));
-    if (!found.on_face)
-      complete(number, "parametric", "by projection", [&face] { add_parametric_curves(face); });
-  }
+  for (const auto& [number, found] : incomplete)
+    if (!found.in_space) complete(number, "spatial", "from its parametric ones", add_spatial_curves);
+  for (const auto& [number, found] : incomplete)
+    if (!found.on_face) complete(number, "parametric", "by projection", add_parametric_curves);
   return copy;
 }
 
@@ -183,9 +166,8 @@ CadFace with_new_curves(const CadFace& face) {
   try {
     result.face = TopoDS::Face(BRepBuilderAPI_Copy(face.face, Standard_False).Shape());
     // The copy has its edges in the original order.
-    TopTools_IndexedMapOfShape edges, copies;
-    TopExp::MapShapes(face.face, TopAbs_EDGE, edges);
-    TopExp::MapShapes(result.face, TopAbs_EDGE, copies);
+    const TopTools_IndexedMapOfShape edges = map_of(face.face, TopAbs_EDGE),
+                                     copies = map_of(result.face, TopAbs_EDGE);
     if (edges.Extent() != copies.Extent()) throw failure("", "the face cannot be copied");
     const Handle(Geom2d_Curve) none;
     for (int i = 1; i <= copies.Extent(); ++i) {

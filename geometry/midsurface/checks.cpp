@@ -6,11 +6,9 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
@@ -87,30 +85,6 @@ bool across_a_wall(const Skin& skin, const std::vector<Wall>& walls, const SkinF
   return across > 0.5 * face.area();
 }
 
-}  // namespace
-
-Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
-  Fan result;
-  const BRepAdaptor_Curve curve(edge);
-  curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
-  const BRepAdaptor_Surface surface(face, Standard_False);
-  const gp_Pnt2d uv =
-      ShapeAnalysis_Surface(surface.Surface().Surface())
-          .ValueOfUV(result.point.Transformed(surface.Trsf().Inverted()), Precision::Confusion());
-  gp_Pnt at;
-  gp_Vec du, dv;
-  surface.D1(uv.X(), uv.Y(), at, du, dv);
-  result.normal = du.Crossed(dv);
-  if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
-  if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
-  if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
-  result.away = result.along.Crossed(result.normal);
-  if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
-  return result;
-}
-
-namespace {
-
 /// Whether the middle leaves the material through a side of the wall.
 bool leaves_through(const Wall& wall, const Skin& skin, const Fan& fan) {
   const auto position = position_in(wall, skin, fan.point);
@@ -124,16 +98,6 @@ bool leaves_through(const Wall& wall, const Skin& skin, const Fan& fan) {
   return false;
 }
 
-}  // namespace
-
-bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan) {
-  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
-    if (wall != own && leaves_through(walls[wall], skin, fan)) return true;
-  return false;
-}
-
-namespace {
-
 /// The numbers of the two faces of the solid that are nearest to a point, ascending; one where both are parts
 /// of the same face. Linear in the faces, for points that a check has found wrong.
 std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
@@ -145,62 +109,51 @@ std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
     double& least = distances.try_emplace(face.number(), skin.size()).first->second;
     least = std::min(least, distance.Value());
   }
-  std::vector<std::pair<double, int>> order;
-  order.reserve(distances.size());
-  for (const auto& [number, distance] : distances) order.emplace_back(distance, number);
-  std::sort(order.begin(), order.end());
   std::vector<int> result;
-  for (std::size_t i = 0; i < std::min<std::size_t>(2, order.size()); ++i) result.push_back(order[i].second);
+  result.reserve(distances.size());
+  for (const auto& [number, distance] : distances) result.push_back(number);
+  std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return distances[a] < distances[b]; });
+  if (result.size() > 2) result.resize(2);
   std::sort(result.begin(), result.end());
   return result;
 }
 
-/// Looks whether a wall ends where its middle has a free edge.
-class RimCheck {
- public:
-  RimCheck(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls) {}
+/// Whether the skin closes the wall `own` at a point of the skin: no material is behind the point, and it
+/// does not lie on the side of another wall.
+bool closes(const Skin& skin, const std::vector<Wall>& walls, const Fan& fan, int own) {
+  const double step = 0.02 * walls[own].thickness;
+  const gp_Pnt behind = fan.point.Translated(step * fan.away);
+  if (skin.in_material(behind) && skin.faces_at(behind, 1e-3 * step).empty()) return false;
+  return !leaves_through_side(skin, walls, own, fan);
+}
 
-  /// Whether the skin closes the wall `own` at a point of the skin: no material is behind the point, and it
-  /// does not lie on the side of another wall.
-  bool closes(const Fan& fan, int own) const {
-    const double step = 0.02 * walls_[own].thickness;
-    const gp_Pnt behind = fan.point.Translated(step * fan.away);
-    if (skin_.in_material(behind) && skin_.faces_at(behind, 1e-3 * step).empty()) return false;
-    return !leaves_through_side(skin_, walls_, own, fan);
+/// Whether an edge is at more than 30 degrees to the nearest side of a wall.
+bool is_steep(const Skin& skin, const Wall& wall, const Fan& fan) {
+  double nearest = skin.size();
+  bool result = false;
+  for (const int index : both_sides(wall)) {
+    const SkinFace& face = skin.faces()[index];
+    if (!is_near(face, wall, fan.point)) continue;
+    const gp_Pnt2d uv = face.closest(fan.point);
+    const double distance = face.point(uv).Distance(fan.point);
+    const auto outward = face.outward(uv);
+    if (!outward || distance >= nearest) continue;
+    nearest = distance;
+    result = std::abs(fan.along.Dot(gp_Vec(*outward))) > 0.5;
   }
+  return result;
+}
 
-  /// Whether the edge runs through the thickness of another wall, as the rim of a rib does below the skin of
-  /// its plate, up to the plate's middle.
-  bool runs_across(const Fan& fan, int own) const {
-    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
-      if (wall == own) continue;
-      const auto [first, second] = distances_to_sides(skin_, walls_[wall], fan.point);
-      if (first + second < 1.05 * walls_[wall].thickness && steep(walls_[wall], fan)) return true;
-    }
-    return false;
+/// Whether an edge runs through the thickness of another wall, as the rim of a rib does below the skin of its
+/// plate, up to the plate's middle.
+bool runs_across(const Skin& skin, const std::vector<Wall>& walls, const Fan& fan, int own) {
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    if (wall == own) continue;
+    const auto [first, second] = distances_to_sides(skin, walls[wall], fan.point);
+    if (first + second < 1.05 * walls[wall].thickness && is_steep(skin, walls[wall], fan)) return true;
   }
-
- private:
-  /// Whether the edge is at more than 30 degrees to the nearest side of a wall.
-  bool steep(const Wall& wall, const Fan& fan) const {
-    double nearest = skin_.size();
-    bool result = false;
-    for (const int index : both_sides(wall)) {
-      const SkinFace& face = skin_.faces()[index];
-      if (!is_near(face, wall, fan.point)) continue;
-      const gp_Pnt2d uv = face.closest(fan.point);
-      const double distance = face.point(uv).Distance(fan.point);
-      const auto outward = face.outward(uv);
-      if (!outward || distance >= nearest) continue;
-      nearest = distance;
-      result = std::abs(fan.along.Dot(gp_Vec(*outward))) > 0.5;
-    }
-    return result;
-  }
-
-  const Skin& skin_;
-  const std::vector<Wall>& walls_;
-};
+  return false;
+}
 
 /// Lists the faces of the solid that belong to no wall. \param accounted indices of those that do
 void list_unpaired(const Skin& skin, const std::vector<Wall>& walls, const std::set<int>& accounted,
@@ -215,69 +168,6 @@ void list_unpaired(const Skin& skin, const std::vector<Wall>& walls, const std::
       result.unpaired.push_back(face.number());
   }
 }
-
-}  // namespace
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                const TopTools_IndexedMapOfShape& edge_numbers, const ExecutionContext& context,
-                MidSurface& result) {
-  double thinnest = skin.size();
-  for (const Wall& wall : walls) thinnest = std::min(thinnest, wall.thickness);
-  const double tolerance = 1e-3 * thinnest;
-  std::set<int> accounted;
-  for (const JoinedFace& face : faces) {
-    accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
-  }
-  const EdgeUses uses(faces);
-  const RimCheck check(skin, walls);
-  for (int i = 0; i < uses.count(); ++i) {
-    context.check();
-    if (uses.uses(i).size() > 1) continue;  // shared, or a seam
-    const EdgeUses::Use& use = uses.uses(i).front();
-    const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(use.orientation));
-    const TopoDS_Face& face = faces[use.face].face;
-    const int own = faces[use.face].wall;
-    ++result.free_edges;
-    std::map<int, int> halfway;  // by wall: number of points on its middle
-    std::map<int, int> rims;     // by face: number of points on it
-    int astray = 0;
-    bool stray = false;
-    for (const double share : {0.5, 0.2, 0.8}) {
-      const Fan fan = fan_at(edge, face, share);
-      const auto on = skin.faces_at(fan.point, tolerance);
-      accounted.insert(on.begin(), on.end());
-      for (const int index : on) ++rims[index];
-      if (!on.empty()) {
-        astray += check.closes(fan, own) ? 0 : 1;
-        continue;
-      }
-      const InOthers others = in_others(skin, walls, own, fan.point);
-      stray = stray || !others.within;
-      astray += others.within && !check.runs_across(fan, own) ? 1 : 0;
-      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
-    }
-    // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
-    const bool long_enough = length_of(edge) > 0.1 * walls[own].thickness;
-    if ((stray || astray > 1) && long_enough) {
-      result.stray_edges.push_back(edge_numbers.FindIndex(edge));
-      result.stray_faces.push_back(nearest_faces(skin, fan_at(edge, face, 0.5).point));
-    }
-    MiddleRim rim{edge_numbers.FindIndex(edge), {}};
-    for (const auto& [index, points] : rims) {
-      if (points == 3) rim.solid_faces.push_back(skin.faces()[index].number());
-    }
-    sort_unique(rim.solid_faces);
-    if (!rim.solid_faces.empty()) result.rims.push_back(rim);
-  }
-  list_unpaired(skin, walls, accounted, thinnest, result);
-}
-
-namespace {
 
 /// The area of the section that two half walls, which start at one edge, have in common. Negative where the
 /// angle from one to the other is over half a turn: there the corner between them is missing.
@@ -329,7 +219,120 @@ double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
   return section;
 }
 
+/// Unit normal of the surface of a face; none where the surface is singular.
+std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+  gp_Pnt at;
+  gp_Vec du, dv;
+  BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
+}
+
+/// A point well inside a face, if it has area.
+std::optional<FaceSample> inner_sample(const TopoDS_Face& face) {
+  const auto samples = sample_face(face, 16);
+  return samples.empty() ? std::nullopt : std::optional(samples[samples.size() / 2]);
+}
+
+/// Whether a direction leads from a middle surface into a room that walls close in ahead and at two sides.
+bool leads_inside(const Skin& skin, const gp_Pnt& from, const gp_Dir& ahead) {
+  const auto end = skin.first_hit(from, ahead);
+  const auto outward = end ? skin.faces()[end->face].outward(end->uv) : std::nullopt;
+  if (!outward || outward->Dot(ahead) >= 0) return false;
+  const gp_Pnt middle = from.Translated(0.5 * gp_Vec(from, end->point));
+  const gp_Dir across = gp_Ax2(middle, ahead).XDirection();
+  for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
+    const gp_Dir aside = across.Rotated(gp_Ax1(middle, ahead), angle * M_PI);
+    if (skin.first_hit(middle, aside) && skin.first_hit(middle, aside.Reversed())) return true;
+  }
+  return false;
+}
+
 }  // namespace
+
+Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
+  Fan result;
+  const BRepAdaptor_Curve curve(edge);
+  curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  const gp_Pnt2d uv =
+      ShapeAnalysis_Surface(surface.Surface().Surface())
+          .ValueOfUV(result.point.Transformed(surface.Trsf().Inverted()), Precision::Confusion());
+  gp_Pnt at;
+  gp_Vec du, dv;
+  surface.D1(uv.X(), uv.Y(), at, du, dv);
+  result.normal = du.Crossed(dv);
+  if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
+  if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
+  if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
+  result.away = result.along.Crossed(result.normal);
+  if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
+  return result;
+}
+
+bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan) {
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
+    if (wall != own && leaves_through(walls[wall], skin, fan)) return true;
+  return false;
+}
+
+void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                const TopTools_IndexedMapOfShape& edge_numbers, const ExecutionContext& context,
+                MidSurface& result) {
+  double thinnest = skin.size();
+  for (const Wall& wall : walls) thinnest = std::min(thinnest, wall.thickness);
+  const double tolerance = 1e-3 * thinnest;
+  std::set<int> accounted;
+  for (const JoinedFace& face : faces) {
+    accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
+  }
+  const EdgeUses uses(faces);
+  for (int i = 0; i < uses.count(); ++i) {
+    context.check();
+    if (uses.uses(i).size() > 1) continue;  // shared, or a seam
+    const EdgeUses::Use& use = uses.uses(i).front();
+    const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(use.orientation));
+    const TopoDS_Face& face = faces[use.face].face;
+    const int own = faces[use.face].wall;
+    ++result.free_edges;
+    std::map<int, int> halfway;  // by wall: number of points on its middle
+    std::map<int, int> rims;     // by face: number of points on it
+    int astray = 0;
+    bool stray = false;
+    for (const double share : {0.5, 0.2, 0.8}) {
+      const Fan fan = fan_at(edge, face, share);
+      const auto on = skin.faces_at(fan.point, tolerance);
+      accounted.insert(on.begin(), on.end());
+      for (const int index : on) ++rims[index];
+      if (!on.empty()) {
+        astray += closes(skin, walls, fan, own) ? 0 : 1;
+        continue;
+      }
+      const InOthers others = in_others(skin, walls, own, fan.point);
+      stray = stray || !others.within;
+      astray += others.within && !runs_across(skin, walls, fan, own) ? 1 : 0;
+      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
+    }
+    // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
+    const bool long_enough = length_of(edge) > 0.1 * walls[own].thickness;
+    if ((stray || astray > 1) && long_enough) {
+      result.stray_edges.push_back(edge_numbers.FindIndex(edge));
+      result.stray_faces.push_back(nearest_faces(skin, fan_at(edge, face, 0.5).point));
+    }
+    MiddleRim rim{edge_numbers.FindIndex(edge), {}};
+    for (const auto& [index, points] : rims) {
+      if (points == 3) rim.solid_faces.push_back(skin.faces()[index].number());
+    }
+    sort_unique(rim.solid_faces);
+    if (!rim.solid_faces.empty()) result.rims.push_back(rim);
+  }
+  list_unpaired(skin, walls, accounted, thinnest, result);
+}
 
 CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
                            const std::vector<JoinedFace>& faces,
@@ -374,25 +377,6 @@ CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
   return result;
 }
 
-namespace {
-
-/// Unit normal of the surface of a face; none where the surface is singular.
-std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
-  gp_Pnt at;
-  gp_Vec du, dv;
-  BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
-  const gp_Vec normal = du.Crossed(dv);
-  return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
-}
-
-/// A point well inside a face, if it has area.
-std::optional<FaceSample> inner_sample(const TopoDS_Face& face) {
-  const auto samples = sample_face(face, 16);
-  return samples.empty() ? std::nullopt : std::optional(samples[samples.size() / 2]);
-}
-
-}  // namespace
-
 std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::vector<Wall>& walls,
                                                   const std::vector<JoinedFace>& faces,
                                                   const ExecutionContext& context) {
@@ -418,24 +402,6 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
   }
   return result;
 }
-
-namespace {
-
-/// Whether a direction leads from a middle surface into a room that walls close in ahead and at two sides.
-bool leads_inside(const Skin& skin, const gp_Pnt& from, const gp_Dir& ahead) {
-  const auto end = skin.first_hit(from, ahead);
-  const auto outward = end ? skin.faces()[end->face].outward(end->uv) : std::nullopt;
-  if (!outward || outward->Dot(ahead) >= 0) return false;
-  const gp_Pnt middle = from.Translated(0.5 * gp_Vec(from, end->point));
-  const gp_Dir across = gp_Ax2(middle, ahead).XDirection();
-  for (const double angle : {0.0, 0.25, 0.5, 0.75}) {
-    const gp_Dir aside = across.Rotated(gp_Ax1(middle, ahead), angle * M_PI);
-    if (skin.first_hit(middle, aside) && skin.first_hit(middle, aside.Reversed())) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);

@@ -1,12 +1,9 @@
 #pragma once
 /// Which faces of a middle surface meet at which edges. Internal.
 
-#include <BRep_Tool.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <vector>
 
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/joining.hpp"
 
 namespace quadrille {
@@ -16,11 +13,10 @@ class EdgeUses {
  public:
   explicit EdgeUses(const std::vector<JoinedFace>& faces) {
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      for (TopExp_Explorer it(faces[i].face, TopAbs_EDGE); it.More(); it.Next()) {
-        if (BRep_Tool::Degenerated(TopoDS::Edge(it.Current()))) continue;
-        const int edge = edges_.Add(it.Current());
+      for (const TopoDS_Edge& edge : edges_of(faces[i].face)) {
+        const int number = edges_.Add(edge);
         uses_.resize(edges_.Extent());
-        uses_[edge - 1].push_back({static_cast<int>(i), it.Current().Orientation()});
+        uses_[number - 1].push_back({static_cast<int>(i), edge.Orientation()});
       }
     }
   }

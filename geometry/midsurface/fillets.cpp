@@ -8,15 +8,14 @@
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <GProp_PrincipalProps.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fusing.hpp"
@@ -113,23 +112,18 @@ std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
   return result;
 }
 
-bool touches(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    if (edges.Contains(it.Current())) return true;
-  }
-  return false;
-}
-
 /// The strips, by index into `faces`, of the border's wall that end at the border.
 std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBorder& border,
                                    const std::vector<JoinedFace>& faces, const std::vector<char>& strips) {
   TopTools_MapOfShape edges;
-  for (const TopoDS_Shape& image : images(fuse, border.fence)) {
-    for (TopExp_Explorer it(image, TopAbs_EDGE); it.More(); it.Next()) edges.Add(it.Current());
-  }
+  for (const TopoDS_Shape& image : images(fuse, border.fence))
+    for (const TopoDS_Edge& edge : edges_of(image)) edges.Add(edge);
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (strips[i] != 0 && faces[i].wall == border.wall && touches(faces[i].face, edges)) result.push_back(i);
+    if (strips[i] == 0 || faces[i].wall != border.wall) continue;
+    const std::vector<TopoDS_Edge> own = edges_of(faces[i].face);
+    if (std::any_of(own.begin(), own.end(), [&](const TopoDS_Edge& edge) { return edges.Contains(edge); }))
+      result.push_back(i);
   }
   return result;
 }
@@ -290,21 +284,22 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   auto& beside = result.beside;
   double held = 0, held_closed = 0;
   for (const auto& [face, fillet] : open) held += fillet.volume;
-  // The rounding outside of a bend takes off what the one inside adds.
-  const double there = volume - shell_volume(faces) + counted_twice(skin, walls, faces, {}).sum();
-  const double left_over = std::clamp(there / held, 0.0, 1.0);
-  for (auto& [face, fillet] : open) {
-    beside[walls_of(fillet.borders)] += fillet.volume;
-    held_closed += fillet.closed ? fillet.volume : 0;
-    if (!fillet.closed) fillet.volume *= left_over;
-  }
-  for (auto it = open.begin(); it != open.end();) {
-    const auto fillet = it++;
-    if (fillet->second.closed) closed.insert(open.extract(fillet));
-  }
   const auto missing = [&](const std::vector<JoinedFace>& from) {
     return volume - shell_volume(from) + counted_twice(skin, walls, from, result).sum();
   };
+  // The rounding outside of a bend takes off what the one inside adds.
+  const double left_over = std::clamp(missing(faces) / held, 0.0, 1.0);
+  for (auto it = open.begin(); it != open.end();) {
+    const auto entry = it++;
+    Fillet& fillet = entry->second;
+    beside[walls_of(fillet.borders)] += fillet.volume;
+    if (fillet.closed) {
+      held_closed += fillet.volume;
+      closed.insert(open.extract(entry));
+    } else {
+      fillet.volume *= left_over;
+    }
+  }
   if (stiffening(open, walls, faces) < worth_stiffness) open.clear();
   if (held_closed < 0.5 * worth_volume * volume || missing(faces) < worth_volume * volume) closed.clear();
   if (open.empty() && closed.empty()) return result;

@@ -27,7 +27,6 @@
 #include <map>
 #include <utility>
 
-#include "geometry/midsurface/middle_geometry.hpp"
 #include "geometry/midsurface/parameter_range.hpp"
 
 namespace quadrille {
@@ -115,12 +114,9 @@ class GridLine {
   }
   /// Parameters to check between the i-th value and the next one; more of them for a straight line.
   std::vector<double> between(int i) const {
-    std::vector<double> result;
-    const auto shares =
-        spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
-    result.reserve(shares.size());
-    for (const double share : shares) result.push_back((1 - share) * value(i) + share * value(i + 1));
-    return result;
+    auto places = spans_ == 1 ? std::vector<double>{0.1, 0.25, 0.5, 0.75, 0.9} : std::vector<double>{0.5};
+    for (double& place : places) place = (1 - place) * value(i) + place * value(i + 1);
+    return places;
   }
 
   TColStd_Array1OfReal values() const {
@@ -302,8 +298,8 @@ std::optional<double> off_along(int direction, const Handle(Geom_Surface) & surf
   return off;
 }
 
-std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
-                                double tolerance) {
+std::optional<NearMiddle> fit(MiddlePoints& points, const std::array<ParameterRange, 2>& ranges,
+                              double tolerance) {
   std::array<GridLine, 2> grid{GridLine(ranges[0], 1), GridLine(ranges[1], 1)};
   for (;;) {
     const auto surface = interpolate(points, grid);
@@ -318,7 +314,7 @@ std::optional<FittedMiddle> fit(MiddlePoints& points, const std::array<Parameter
       grid[direction] = *finer;
       is_finer = true;
     }
-    if (!is_finer) return FittedMiddle{*surface, std::max(off[0], off[1])};
+    if (!is_finer) return NearMiddle{*surface, std::max(off[0], off[1])};
   }
 }
 
@@ -428,8 +424,8 @@ Handle(Geom_Surface)
 
 }  // namespace
 
-std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin, const std::array<int, 4>& beside) {
+std::optional<NearMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
+                                     double tolerance, double margin, const std::array<int, 4>& beside) {
   const auto ranges = common_range(skin, sides);
   if (!(ranges[0].length() > 0) || !(ranges[1].length() > 0)) return std::nullopt;
   MiddlePoints points(skin, sides, ranges, beside);
@@ -441,7 +437,7 @@ std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::v
                                1e-6 * skin.size(), tolerance);
     if (!profile) return std::nullopt;
     run_on(*profile, margin, line, beside);
-    return FittedMiddle{revolved(*profile, *axis, ranges[0].length(), margin, beside), profile->off};
+    return NearMiddle{revolved(*profile, *axis, ranges[0].length(), margin, beside), profile->off};
   }
   auto result = fit(points, ranges, tolerance);
   if (result) result->surface = run_on(result->surface, margin, beside);

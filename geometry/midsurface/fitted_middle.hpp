@@ -1,22 +1,16 @@
 #pragma once
 /// The middle of two sides that have no exact middle surface, as a B-spline or a revolved one. Internal.
 
-#include <Geom_Surface.hxx>
 #include <array>
 #include <optional>
 #include <vector>
 
-#include "geometry/midsurface/skin.hpp"
+#include "geometry/midsurface/middle_geometry.hpp"
 
 namespace quadrille {
 
 /// Error of a fitted middle, in tolerances, up to which it is good enough if finer grids gain little.
 constexpr double most_tolerances = 10;
-
-struct FittedMiddle {
-  Handle(Geom_Surface) surface;
-  double off = 0;  ///< largest distance found from the true middle
-};
 
 /// Interpolates a grid of points that are equally far from both sides. The grid lies in the parameters of the
 /// first side. It is refined until the surface between its points is within the tolerance, or within ten
@@ -28,8 +22,8 @@ struct FittedMiddle {
 /// first side's parameters, the face of the wall with which the middle shares that end, which is not
 /// extended; -1 = none. \return nothing if
 /// the sides do not face each other over the whole grid. Time: about five projections per point.
-std::optional<FittedMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
-                                       double tolerance, double margin,
-                                       const std::array<int, 4>& beside = {-1, -1, -1, -1});
+std::optional<NearMiddle> fit_middle(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
+                                     double tolerance, double margin,
+                                     const std::array<int, 4>& beside = {-1, -1, -1, -1});
 
 }  // namespace quadrille

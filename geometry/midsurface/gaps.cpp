@@ -15,15 +15,12 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
-#include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomFill.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
-#include <TopoDS.hxx>
 #include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <cmath>
@@ -33,6 +30,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
 #include "geometry/midsurface/widths.hpp"
@@ -44,9 +42,7 @@ namespace {
 /// A face of one of the solids, by indices.
 struct FaceOf {
   int solid = 0, face = 0;
-  bool operator<(const FaceOf& other) const {
-    return solid != other.solid ? solid < other.solid : face < other.face;
-  }
+  friend auto operator<=>(const FaceOf&, const FaceOf&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A solid swept from a face or moved as a whole, and for its faces the model's faces that they extend.
@@ -69,14 +65,6 @@ struct Gap {
   double share = 0;  ///< share of the area of `from` that faces `to`
 };
 
-/// The thickness of a wall at a point of its skin: through the material, but at most the width of the face.
-double thickness_at(const Skin& skin, const SkinFace& face, double width, const gp_Pnt2d& uv) {
-  const auto outward = face.outward(uv);
-  if (!outward) return 0;
-  const auto hit = skin.first_hit(face.point(uv), outward->Reversed());
-  return hit ? std::min(width, hit->distance) : width;
-}
-
 bool is_flat(const SkinFace& face) {
   return face.surface().GetType() == GeomAbs_Plane;
 }
@@ -92,13 +80,11 @@ struct Beside {
 std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
-  for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
-    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-    if (BRep_Tool::Degenerated(edge)) continue;
+  for (const TopoDS_Edge& edge : edges_of(face.face())) {
     const BRepAdaptor_Curve curve(edge);
     for (const TopoDS_Shape& next : skin.faces_of(edge)) {
       if (next.IsSame(face.face())) continue;
-      const SkinFace& other = skin.faces()[skin.index_of(TopoDS::Face(next))];
+      const SkinFace& other = skin.faces()[skin.index_of(next)];
       for (const double place : places) {
         const gp_Pnt at = curve.Value((1 - place) * curve.FirstParameter() + place * curve.LastParameter());
         const auto own = face.outward(face.closest(at)), outward = other.outward(other.closest(at));
@@ -340,10 +326,8 @@ class GapFinder {
   bool goes_on(const FaceOf& of) const {
     if (is_flat(face(of))) return true;
     const auto samples = face(of).samples(1);
-    const double width = widths_[of.solid][of.face];
-    return !samples.empty() &&
-           (thickness_at(solids_[of.solid], face(of), width, samples.front().uv) < width ||
-            runs_on_along_normals(beside(solids_[of.solid], face(of))));
+    return !samples.empty() && (thickness_at(of, samples.front().uv) < widths_[of.solid][of.face] ||
+                                runs_on_along_normals(beside(solids_[of.solid], face(of))));
   }
 
   /// Sweeps a face, starting at a depth inside the material, over a length outward: along a direction, or in
@@ -351,15 +335,10 @@ class GapFinder {
   std::vector<DrawnFace> drawn(const FaceOf& of, const std::optional<gp_Dir>& along, double depth,
                                double length) const {
     if (!along) return thickened(of, depth, length);
-    return {drawn_along(of, -depth * gp_Vec(*along), length * gp_Vec(*along))};
-  }
-
- private:
-  DrawnFace drawn_along(const FaceOf& of, const gp_Vec& start, const gp_Vec& way) const {
     gp_Trsf move;
-    move.SetTranslation(start);
+    move.SetTranslation(-depth * gp_Vec(*along));
     BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
-    BRepPrimAPI_MakePrism prism(moved.Shape(), way);
+    BRepPrimAPI_MakePrism prism(moved.Shape(), length * gp_Vec(*along));
     DrawnFace result{prism.Shape(), {}};
     for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
       for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
@@ -367,7 +346,17 @@ class GapFinder {
     });
     result.numbers.emplace_back(prism.FirstShape(), face(of).number());
     result.numbers.emplace_back(prism.LastShape(), face(of).number());
-    return result;
+    return {result};
+  }
+
+ private:
+  /// The thickness of a wall at a point of its skin: through the material, but at most the width of the face.
+  double thickness_at(const FaceOf& of, const gp_Pnt2d& uv) const {
+    const auto outward = face(of).outward(uv);
+    if (!outward) return 0;
+    const auto hit = solids_[of.solid].first_hit(face(of).point(uv), outward->Reversed());
+    const double width = widths_[of.solid][of.face];
+    return hit ? std::min(width, hit->distance) : width;
   }
 
   /// drawn() along the normals.
@@ -393,9 +382,8 @@ class GapFinder {
   bool leaves_contact(const FaceOf& rounded, const FaceOf& other) const {
     if (is_flat(face(rounded))) return false;
     const double near = 1e-6 * solids_[rounded.solid].size();
-    for (TopExp_Explorer it(face(rounded).face(), TopAbs_EDGE); it.More(); it.Next()) {
-      if (BRep_Tool::Degenerated(TopoDS::Edge(it.Current()))) continue;
-      const BRepAdaptor_Curve curve(TopoDS::Edge(it.Current()));
+    for (const TopoDS_Edge& edge : edges_of(face(rounded).face())) {
+      const BRepAdaptor_Curve curve(edge);
       const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
       const gp_Pnt2d uv = face(other).closest(at);
       if (face(other).point(uv).Distance(at) > near) continue;
@@ -412,7 +400,7 @@ class GapFinder {
     for (TopExp_Explorer it(face(of).face(), TopAbs_EDGE); it.More(); it.Next()) {
       for (const TopoDS_Shape& beside : solids_[of.solid].faces_of(it.Current())) {
         if (!beside.IsSame(face(of).face()))
-          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(TopoDS::Face(beside))].number());
+          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(beside)].number());
       }
     }
   }
@@ -446,9 +434,7 @@ class GapFinder {
     if (!nearest) return;
     const auto opposite = face(to).outward(nearest->uv);
     if (!opposite || opposite->Dot(along) > -facing) return;  // met from inside, or grazed
-    const double thickness =
-        std::min(thickness_at(solids_[from.solid], face(from), widths_[from.solid][from.face], sample.uv),
-                 thickness_at(solids_[to.solid], face(to), widths_[to.solid][to.face], nearest->uv));
+    const double thickness = std::min(thickness_at(from, sample.uv), thickness_at(to, nearest->uv));
     if (nearest->distance > thickness) return;
     Across& across = seen[to];
     across.widest = std::max(across.widest, nearest->distance);
@@ -473,13 +459,6 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& find
   std::set<std::pair<FaceOf, FaceOf>> closed;
   std::erase_if(gaps, [&](const Gap& gap) { return !closed.insert(std::minmax(gap.from, gap.to)).second; });
   return gaps;
-}
-
-void add(const DrawnFace& prism, GapFillers& fillers) {
-  fillers.solids.push_back(prism.solid);
-  for (const auto& [face, number] : prism.numbers) {
-    if (!fillers.numbers.IsBound(face)) fillers.numbers.Bind(face, number);
-  }
 }
 
 /// Adds the common part of two solids.
@@ -519,7 +498,9 @@ GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& con
     else if (moved.insert({gap.from.solid, gap.to}).second)  // an end may have several faces
       parts.push_back(finder.moved(gap.from, length * gp_Vec(*gap.along)));
     if (flat && (gap.share > all || !is_flat(finder.face(gap.to)))) {
-      add(parts.front(), result);
+      result.solids.push_back(parts.front().solid);
+      for (const auto& [face, number] : parts.front().numbers)
+        if (!result.numbers.IsBound(face)) result.numbers.Bind(face, number);
     } else if (finder.goes_on(gap.to)) {
       const auto back = flat ? std::optional(gap.along->Reversed()) : std::nullopt;
       for (const DrawnFace& other : finder.drawn(gap.to, back, depth, 2 * length)) {

@@ -4,17 +4,11 @@
 
 #include <BOPAlgo_Builder.hxx>
 #include <BRepAdaptor_Curve.hxx>
-#include <BRep_Builder.hxx>
 #include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
@@ -24,6 +18,7 @@
 #include <utility>
 
 #include "geometry/base/error.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fusing.hpp"
@@ -32,14 +27,6 @@
 namespace quadrille {
 
 namespace {
-
-TopoDS_Compound compound_of(const std::vector<TopoDS_Face>& faces) {
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (const TopoDS_Face& face : faces) builder.Add(result, face);
-  return result;
-}
 
 /// The pieces, cut at each other.
 struct Images {
@@ -217,7 +204,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
         continue;
       for (const JoinedFace& piece : strip) {
         faces.push_back(own ? piece : JoinedFace{piece.face, joins, true, whole_coverage(joins, walls)});
-        for (TopExp_Explorer it(piece.face, TopAbs_EDGE); it.More(); it.Next()) closed.Add(it.Current());
+        for (const TopoDS_Edge& edge : edges_of(piece.face)) closed.Add(edge);
       }
       changed = true;
     }
@@ -244,28 +231,6 @@ TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& ed
   return changed ? TopoDS::Face(result) : TopoDS_Face();
 }
 
-}  // namespace
-
-// Such edges remain where pieces that hung over were dropped.
-void drop_traces(std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
-  TopTools_MapOfShape traces;
-  for (int i = 0; i < uses.count(); ++i) {
-    const auto& around = uses.uses(i);
-    const bool inside = std::all_of(around.begin(), around.end(), [&](const EdgeUses::Use& use) {
-      return use.face == around.front().face && use.orientation == TopAbs_INTERNAL;
-    });
-    if (inside) traces.Add(uses.edge(i));
-  }
-  if (traces.IsEmpty()) return;
-  for (JoinedFace& face : faces) {
-    const TopoDS_Face clean = without_edges(face.face, traces);
-    if (!clean.IsNull()) face.face = clean;
-  }
-}
-
-namespace {
-
 /// Merges the faces of one wall, or those with its thickness at its steps, across edges that no other uses.
 void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>& walls,
                 const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
@@ -291,10 +256,8 @@ void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>&
     merged.insert(merged.end(), own.begin(), own.end());
     return;
   }
-  TopTools_IndexedMapOfShape unified;  // the shell has some faces twice
-  TopExp::MapShapes(unify.Shape(), TopAbs_FACE, unified);
-  for (int i = 1; i <= unified.Extent(); ++i) {
-    const TopoDS_Face& face = TopoDS::Face(unified(i));
+  for (const TopoDS_Shape& unified : list_of(unify.Shape(), TopAbs_FACE)) {  // the shell has some twice
+    const TopoDS_Face& face = TopoDS::Face(unified);
     triangulate_middle(face, walls[wall].thickness);
     merged.push_back({face, wall, steps, coverage_of(face, walls[wall], skin)});
     if (steps || merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
@@ -322,7 +285,41 @@ std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& 
   return result;
 }
 
+/// Cuts all pieces, and the fences that join steps, at each other. \param fuzzy distance within which shapes
+/// count as touching. \return whether OpenCASCADE succeeded.
+bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
+                 double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
+  fuse.Clear();
+  fuse.SetFuzzyValue(fuzzy);
+  for (const auto& of_wall : pieces) {
+    if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
+  }
+  for (const WallEnd& end : ends) {
+    if (end.step) fuse.AddArgument(end.fence);
+  }
+  if (fuse.Arguments().Extent() > 1) perform(fuse, context);
+  return !fuse.HasErrors();
+}
+
 }  // namespace
+
+// Such edges remain where pieces that hung over were dropped.
+void drop_traces(std::vector<JoinedFace>& faces) {
+  const EdgeUses uses(faces);
+  TopTools_MapOfShape traces;
+  for (int i = 0; i < uses.count(); ++i) {
+    const auto& around = uses.uses(i);
+    const bool inside = std::all_of(around.begin(), around.end(), [&](const EdgeUses::Use& use) {
+      return use.face == around.front().face && use.orientation == TopAbs_INTERNAL;
+    });
+    if (inside) traces.Add(uses.edge(i));
+  }
+  if (traces.IsEmpty()) return;
+  for (JoinedFace& face : faces) {
+    const TopoDS_Face clean = without_edges(face.face, traces);
+    if (!clean.IsNull()) face.face = clean;
+  }
+}
 
 void orient_alike(std::vector<JoinedFace>& faces) {
   const EdgeUses uses(faces);
@@ -368,26 +365,6 @@ std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFa
   }
   return result;
 }
-
-namespace {
-
-/// Cuts all pieces, and the fences that join steps, at each other. \param fuzzy distance within which shapes
-/// count as touching. \return whether OpenCASCADE succeeded.
-bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector<TopoDS_Face>>& pieces,
-                 double fuzzy, const ExecutionContext& context, BOPAlgo_Builder& fuse) {
-  fuse.Clear();
-  fuse.SetFuzzyValue(fuzzy);
-  for (const auto& of_wall : pieces) {
-    if (!of_wall.empty()) fuse.AddArgument(compound_of(of_wall));
-  }
-  for (const WallEnd& end : ends) {
-    if (end.step) fuse.AddArgument(end.fence);
-  }
-  if (fuse.Arguments().Extent() > 1) perform(fuse, context);
-  return !fuse.HasErrors();
-}
-
-}  // namespace
 
 std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<WallEnd>& ends,

@@ -4,15 +4,12 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -32,14 +29,10 @@ bool is_smooth(const SkinFace& a, const SkinFace& b, const TopoDS_Edge& edge) {
 
 /// The smooth edges that two faces have in common.
 std::vector<TopoDS_Edge> smooth_edges(const SkinFace& a, const SkinFace& b) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(b.face(), TopAbs_EDGE, edges);
-  std::vector<TopoDS_Edge> result;
-  for (TopExp_Explorer it(a.face(), TopAbs_EDGE); it.More(); it.Next()) {
-    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-    if (edges.Contains(edge) && !BRep_Tool::Degenerated(edge) && is_smooth(a, b, edge))
-      result.push_back(edge);
-  }
+  const TopTools_IndexedMapOfShape others = map_of(b.face(), TopAbs_EDGE);
+  std::vector<TopoDS_Edge> result = edges_of(a.face());
+  std::erase_if(result,
+                [&](const TopoDS_Edge& edge) { return !others.Contains(edge) || !is_smooth(a, b, edge); });
   return result;
 }
 
@@ -71,80 +64,68 @@ struct Chain {
   std::vector<std::size_t> pairs;  ///< the index of each wall's pair
 };
 
-/// Walks along chains of pairs.
-class Walk {
- public:
-  Walk(const Skin& skin, const std::vector<std::array<int, 2>>& pairs)
-      : skin_(skin), pairs_(pairs), done_(pairs.size(), false) {}
+using Pairs = std::vector<std::array<int, 2>>;
 
-  bool done(std::size_t pair) const { return done_[pair]; }
-  void finish(const Chain& chain) {
-    for (const std::size_t pair : chain.pairs) done_[pair] = true;
+/// The ends of the parameters of the first side of one wall at which it continues into another one.
+std::vector<int> ends_between(const Skin& skin, const std::array<int, 2>& from,
+                              const std::array<int, 2>& to) {
+  const auto face = [&](int index) -> const SkinFace& { return skin.faces()[index]; };
+  std::vector<int> result;
+  for (const TopoDS_Edge& edge : smooth_edges(face(from[0]), face(to[0]))) {
+    const auto own = end_along(face(from[0]).face(), edge), other = end_along(face(to[0]).face(), edge);
+    if (own && other) result.push_back(*own);
   }
+  if (result.empty() || smooth_edges(face(from[1]), face(to[1])).empty()) return {};
+  return result;
+}
 
-  /// The chain that contains a pair, of those that are not done. \param side of that pair that becomes the
-  /// first one.
-  Chain from(std::size_t start, int side) const {
-    Chain chain;
-    add(start, side, chain);
-    for (std::size_t at = 0; at < chain.walls.size(); ++at) {
-      for (std::size_t other = 0; other < pairs_.size(); ++other) {
-        if (other != chain.pairs[at] && !done_[other]) go_on(at, other, chain);
-      }
+void add(const Pairs& pairs, std::size_t pair, int first, Chain& chain) {
+  chain.pairs.push_back(pair);
+  chain.walls.push_back({{pairs[pair][first], pairs[pair][1 - first]}, {-1, -1, -1, -1}, {}});
+}
+
+/// Adds the other pair to the chain if a wall of the chain continues into it.
+void go_on(const Skin& skin, const Pairs& pairs, std::size_t at, std::size_t other, Chain& chain) {
+  const auto known = std::find(chain.pairs.begin(), chain.pairs.end(), other);
+  const auto index = static_cast<std::size_t>(known - chain.pairs.begin());
+  for (const int first : {0, 1}) {
+    const std::array<int, 2> faces{pairs[other][first], pairs[other][1 - first]};
+    if (known != chain.pairs.end() && chain.walls[index].faces != faces) continue;
+    const std::vector<int> ends = ends_between(skin, chain.walls[at].faces, faces);
+    if (ends.empty()) continue;
+    if (known == chain.pairs.end()) add(pairs, other, first, chain);
+    for (const int end : ends) chain.walls[at].beside[end] = faces[0];
+    chain.walls[at].next.push_back(index);
+    return;
+  }
+}
+
+/// The chain that contains a pair, of those that are not done. \param side of that pair that becomes the
+/// first one.
+Chain chain_from(const Skin& skin, const Pairs& pairs, const std::vector<char>& done, std::size_t start,
+                 int side) {
+  Chain chain;
+  add(pairs, start, side, chain);
+  for (std::size_t at = 0; at < chain.walls.size(); ++at) {
+    for (std::size_t other = 0; other < pairs.size(); ++other) {
+      if (other != chain.pairs[at] && done[other] == 0) go_on(skin, pairs, at, other, chain);
     }
-    return chain;
   }
-
- private:
-  void add(std::size_t pair, int first, Chain& chain) const {
-    chain.pairs.push_back(pair);
-    chain.walls.push_back({{pairs_[pair][first], pairs_[pair][1 - first]}, {-1, -1, -1, -1}, {}});
-  }
-
-  /// Adds the other pair to the chain if a wall of the chain continues into it.
-  void go_on(std::size_t at, std::size_t other, Chain& chain) const {
-    const auto known = std::find(chain.pairs.begin(), chain.pairs.end(), other);
-    const auto index = static_cast<std::size_t>(known - chain.pairs.begin());
-    for (const int first : {0, 1}) {
-      const std::array<int, 2> faces{pairs_[other][first], pairs_[other][1 - first]};
-      if (known != chain.pairs.end() && chain.walls[index].faces != faces) continue;
-      const std::vector<int> ends = ends_between(chain.walls[at].faces, faces);
-      if (ends.empty()) continue;
-      if (known == chain.pairs.end()) add(other, first, chain);
-      for (const int end : ends) chain.walls[at].beside[end] = faces[0];
-      chain.walls[at].next.push_back(index);
-      return;
-    }
-  }
-
-  /// The ends of the parameters of the first side of one wall at which it continues into another one.
-  std::vector<int> ends_between(const std::array<int, 2>& from, const std::array<int, 2>& to) const {
-    const auto face = [&](int index) -> const SkinFace& { return skin_.faces()[index]; };
-    std::vector<int> result;
-    for (const TopoDS_Edge& edge : smooth_edges(face(from[0]), face(to[0]))) {
-      const auto own = end_along(face(from[0]).face(), edge), other = end_along(face(to[0]).face(), edge);
-      if (own && other) result.push_back(*own);
-    }
-    if (result.empty() || smooth_edges(face(from[1]), face(to[1])).empty()) return {};
-    return result;
-  }
-
-  const Skin& skin_;
-  const std::vector<std::array<int, 2>>& pairs_;
-  std::vector<bool> done_;
-};
+  return chain;
+}
 
 }  // namespace
 
 std::vector<MatchedSides> matched_sides(const Skin& skin, const std::vector<std::array<int, 2>>& pairs) {
   std::vector<MatchedSides> result;
-  Walk walk(skin, pairs);
+  std::vector<char> done(pairs.size(), 0);
   for (std::size_t start = 0; start < pairs.size(); ++start) {
-    if (walk.done(start)) continue;
-    Chain chain = walk.from(start, 0);
-    if (Chain other = walk.from(start, 1); other.walls.size() > chain.walls.size()) chain = std::move(other);
+    if (done[start] != 0) continue;
+    Chain chain = chain_from(skin, pairs, done, start, 0);
+    if (Chain other = chain_from(skin, pairs, done, start, 1); other.walls.size() > chain.walls.size())
+      chain = std::move(other);
     if (chain.walls.size() < 2) continue;
-    walk.finish(chain);
+    for (const std::size_t pair : chain.pairs) done[pair] = 1;
     for (MatchedSides& wall : chain.walls) {
       for (std::size_t& next : wall.next) next += result.size();
     }

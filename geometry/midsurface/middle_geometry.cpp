@@ -47,18 +47,13 @@ bool same_cones(const gp_Cone& a, const gp_Cone& b, double size) {
          std::abs(widening(a, a.Axis()) - widening(b, a.Axis())) < same_direction;
 }
 
-bool same_planes(const SkinFace& a, const SkinFace& b, double size) {
-  const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
-  return p.Axis().Direction().IsParallel(q.Axis().Direction(), same_direction) &&
-         p.Distance(q.Location()) < same_length * size;
-}
-
 bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
   const double near = same_length * size;
   switch (s.GetType()) {
     case GeomAbs_Plane:
-      return same_planes(a, b, size);
+      return s.Plane().Axis().Direction().IsParallel(t.Plane().Axis().Direction(), same_direction) &&
+             s.Plane().Distance(t.Plane().Location()) < near;
     case GeomAbs_Cylinder:
       return same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size) &&
              std::abs(s.Cylinder().Radius() - t.Cylinder().Radius()) < near;
@@ -149,6 +144,21 @@ Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double s
   return new Geom_ToroidalSurface(a.Position(), a.MajorRadius(), 0.5 * (a.MinorRadius() + b.MinorRadius()));
 }
 
+/// The largest error of the mean circle as the middle of two circles: half the difference of a point's
+/// distances from both. \param apart distance between the centers. \param first, second the radii.
+double off_between_rounds(double apart, double first, double second) {
+  const double radius = 0.5 * (first + second);
+  double off = 0;
+  constexpr int steps = 16;
+  for (int i = 0; i <= steps; ++i) {
+    const double x = radius * std::cos(M_PI * i / steps), y = radius * std::sin(M_PI * i / steps);
+    const double to_first = std::abs(std::hypot(x + 0.5 * apart, y) - first);
+    const double to_second = std::abs(std::hypot(x - 0.5 * apart, y) - second);
+    off = std::max(off, 0.5 * std::abs(to_first - to_second));
+  }
+  return off;
+}
+
 }  // namespace
 
 std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
@@ -229,25 +239,6 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
       return {};
   }
 }
-
-namespace {
-
-/// The largest error of the mean circle as the middle of two circles: half the difference of a point's
-/// distances from both. \param apart distance between the centers. \param first, second the radii.
-double off_between_rounds(double apart, double first, double second) {
-  const double radius = 0.5 * (first + second);
-  double off = 0;
-  constexpr int steps = 16;
-  for (int i = 0; i <= steps; ++i) {
-    const double x = radius * std::cos(M_PI * i / steps), y = radius * std::sin(M_PI * i / steps);
-    const double to_first = std::abs(std::hypot(x + 0.5 * apart, y) - first);
-    const double to_second = std::abs(std::hypot(x - 0.5 * apart, y) - second);
-    off = std::max(off, 0.5 * std::abs(to_first - to_second));
-  }
-  return off;
-}
-
-}  // namespace
 
 NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();

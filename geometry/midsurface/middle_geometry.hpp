@@ -33,7 +33,7 @@ std::optional<gp_Ax1> common_axis(const Skin& skin, const std::vector<int>& face
 /// A surface that is nearly the middle.
 struct NearMiddle {
   Handle(Geom_Surface) surface;
-  double off = 0;  ///< distance from the true middle
+  double off = 0;  ///< largest distance found from the true middle
 };
 
 /// The mean of two cylinders with parallel axes, or of two spheres, that nearly share their axis or center,

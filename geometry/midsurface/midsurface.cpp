@@ -3,23 +3,15 @@
 #include "geometry/midsurface/midsurface.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
-#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <algorithm>
-#include <array>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <deque>
@@ -34,7 +26,9 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/checks.hpp"
 #include "geometry/midsurface/edge_uses.hpp"
 #include "geometry/midsurface/fitted_middle.hpp"
@@ -81,20 +75,17 @@ double volume_of_triangles(const TopoDS_Shape& solid, double deflection) {
 /// but may be off by a fifth for B-splines, whatever tolerance it reports.
 double volume_of(const TopoDS_Shape& solid) {
   constexpr double tolerance = 1e-3;
-  bool plain = true;
-  for (TopExp_Explorer it(solid, TopAbs_FACE); it.More(); it.Next())
-    plain = plain &&
-            BRepAdaptor_Surface(TopoDS::Face(it.Current()), Standard_False).GetType() < GeomAbs_BezierSurface;
+  const std::vector<TopoDS_Shape> faces = list_of(solid, TopAbs_FACE);
   GProp_GProps properties;
-  if (plain) {
+  if (std::all_of(faces.begin(), faces.end(), [](const TopoDS_Shape& face) {
+        return BRepAdaptor_Surface(TopoDS::Face(face), Standard_False).GetType() < GeomAbs_BezierSurface;
+      })) {
     BRepGProp::VolumeProperties(solid, properties, 1e-6);
     return std::abs(properties.Mass());
   }
   const double error = BRepGProp::VolumePropertiesGK(solid, properties, tolerance);
   if (error >= 0 && error < 2 * tolerance) return std::abs(properties.Mass());
-  Bnd_Box box;
-  BRepBndLib::Add(solid, box, Standard_False);
-  double deflection = 1e-3 * std::sqrt(box.SquareExtent());
+  double deflection = 1e-3 * std::sqrt(box_of(solid).SquareExtent());
   double volume = volume_of_triangles(solid, deflection);
   for (int i = 0; i < 4; ++i) {
     const double coarse = volume;
@@ -120,54 +111,43 @@ std::vector<int> width_groups(const std::vector<Wall>& walls, const std::vector<
   return group;
 }
 
-/// The extent of some connected faces.
-struct Extent {
-  double area = 0, volume = 0;
-  double perimeter = 0;  ///< without holes
-};
-
-/// \param part indices of faces
-Extent extent_of(const std::vector<JoinedFace>& faces, const std::vector<std::size_t>& part) {
-  Extent result;
-  std::vector<JoinedFace> own;
-  own.reserve(part.size());
+/// The thickness of connected faces over their width.
+double thickness_over_width(const std::vector<JoinedFace>& part) {
+  double area = 0, volume = 0, perimeter = 0;  // the perimeter without holes
   TopTools_MapOfShape outer;
-  for (const std::size_t i : part) {
-    const double area = area_of(faces[i].face);
-    result.area += area;
-    result.volume += area * faces[i].coverage.mean;
-    own.push_back(faces[i]);
-    for (TopExp_Explorer it(BRepTools::OuterWire(faces[i].face), TopAbs_EDGE); it.More(); it.Next())
-      outer.Add(it.Current());
+  for (const JoinedFace& face : part) {
+    const double own = area_of(face.face);
+    area += own;
+    volume += own * face.coverage.mean;
+    for (const TopoDS_Edge& edge : edges_of(BRepTools::OuterWire(face.face))) outer.Add(edge);
   }
-  const EdgeUses uses(own);  // the edge of a pocket is inner to the face around it, outer to the next one
+  const EdgeUses uses(part);  // the edge of a pocket is inner to the face around it, outer to the next one
   for (int i = 0; i < uses.count(); ++i) {
     if (uses.uses(i).size() == 1 && outer.Contains(uses.edge(i)))
-      result.perimeter += length_of(TopoDS::Edge(uses.edge(i)));
+      perimeter += length_of(TopoDS::Edge(uses.edge(i)));
   }
-  return result;
+  return volume / (width_of(area, perimeter) * area);
 }
 
 /// Walls that are so many times as wide as thick make a shell that is within 3 % of the solid:
 /// docs/midsurface.md.
 constexpr double slender = 12;
 
-/// 1 for each face whose connected part is thicker than `thickest` times its width, 0 for others.
-std::vector<char> find_thick(const SolidMiddle& middle, const std::vector<WallEnd>& ends, double thickest) {
+/// For each face, the thickness of its connected part over the part's width.
+std::vector<double> thickness_over_width(const SolidMiddle& middle, const std::vector<WallEnd>& ends) {
   const std::vector<int> group = width_groups(middle.walls, ends);
-  std::vector<char> result(middle.faces.size(), 0);
-  for (std::size_t g = 0; g < middle.walls.size(); ++g) {
+  std::vector<double> result(middle.faces.size(), 0);
+  std::map<int, std::vector<std::size_t>> by_group;
+  for (std::size_t i = 0; i < result.size(); ++i) by_group[group[middle.faces[i].wall]].push_back(i);
+  for (const auto& [number, indices] : by_group) {
     std::vector<JoinedFace> faces;
-    std::vector<std::size_t> indices;
-    for (std::size_t i = 0; i < middle.faces.size(); ++i) {
-      if (group[middle.faces[i].wall] != static_cast<int>(g)) continue;
-      faces.push_back(middle.faces[i]);
-      indices.push_back(i);
-    }
+    for (const std::size_t i : indices) faces.push_back(middle.faces[i]);
     for (const std::vector<std::size_t>& part : connected_parts(faces)) {
-      const Extent extent = extent_of(faces, part);
-      const bool thick = extent.volume > thickest * width_of(extent.area, extent.perimeter) * extent.area;
-      for (const std::size_t i : part) result[indices[i]] = thick ? 1 : 0;
+      std::vector<JoinedFace> own;
+      own.reserve(part.size());
+      for (const std::size_t i : part) own.push_back(faces[i]);
+      const double ratio = thickness_over_width(own);
+      for (const std::size_t i : part) result[indices[i]] = ratio;
     }
   }
   return result;
@@ -231,34 +211,30 @@ std::string cannot_join(const std::string& name, const Skin& skin, const std::ve
 /// options.partial keeps the thin walls and reports the others. Leaves nothing of a solid that is not thin.
 void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
                 const MidSurfaceOptions& options, SolidMiddle& middle) {
-  const std::vector<char> thick = find_thick(middle, ends, options.thickest);
-  double all = 0, thick_volume = 0;
+  const std::vector<double> ratios = thickness_over_width(middle, ends);
+  double all = 0, thick_volume = 0, narrow_volume = 0;
   std::set<int> faces;
   std::vector<JoinedFace> thin;
-  for (std::size_t i = 0; i < thick.size(); ++i) {
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
     const JoinedFace& face = middle.faces[i];
+    const std::set<int>& around = face.coverage.faces;
     const double volume = area_of(face.face) * face.coverage.mean;
     all += volume;
-    if (thick[i] == 0) {
+    if (ratios[i] > 1 / slender && !face.step) {
+      narrow_volume += volume;
+      middle.narrow.insert(around.begin(), around.end());
+    }
+    if (ratios[i] > options.thickest) {
+      thick_volume += volume;
+      faces.insert(around.begin(), around.end());
+    } else {
       thin.push_back(face);
-      continue;
     }
-    thick_volume += volume;
-    faces.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
-  if (thick_volume <= 0.5 * all && all > 0) {
-    const std::vector<char> narrow = find_thick(middle, ends, 1 / slender);
-    double narrow_volume = 0;
-    for (std::size_t i = 0; i < narrow.size(); ++i) {
-      const JoinedFace& face = middle.faces[i];
-      if (narrow[i] == 0 || face.step) continue;
-      narrow_volume += area_of(face.face) * face.coverage.mean;
-      middle.narrow.insert(face.coverage.faces.begin(), face.coverage.faces.end());
-    }
-    constexpr double hardly = 0.05;
-    if (narrow_volume <= hardly * all) middle.narrow.clear();
-    return;
-  }
+  constexpr double hardly = 0.05;
+  const bool is_thin = thick_volume <= 0.5 * all && all > 0;
+  if (!is_thin || narrow_volume <= hardly * all) middle.narrow.clear();
+  if (is_thin) return;
   middle.faces = std::move(thin);
   if (middle.faces.empty()) return;
   tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width", name,
@@ -334,9 +310,8 @@ bool attempt(const MidSurfaceOptions& options, std::string_view done, SolidMiddl
 
 /// A compound with a shell for each connected part; with single faces if more than two of them share an edge.
 TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
-  TopoDS_Compound result;
+  std::vector<TopoDS_Shape> result;
   const BRep_Builder builder;
-  builder.MakeCompound(result);
   for (const std::vector<std::size_t>& part : connected_parts(faces)) {
     TopTools_IndexedDataMapOfShapeListOfShape around;
     TopoDS_Shell shell;
@@ -347,13 +322,12 @@ TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
     }
     const bool manifold = std::all_of(around.cbegin(), around.cend(),
                                       [](const TopTools_ListOfShape& list) { return list.Extent() <= 2; });
-    if (manifold) {
-      builder.Add(result, shell);
-      continue;
-    }
-    for (const std::size_t i : part) builder.Add(result, faces[i].face);
+    if (manifold)
+      result.push_back(shell);
+    else
+      for (const std::size_t i : part) result.push_back(faces[i].face);
   }
-  return result;
+  return compound_of(result);
 }
 
 /// How area times thickness compares with the volume, in words.
@@ -380,8 +354,7 @@ std::string twice_sentence(const CountedTwice& twice, double volume, const std::
   add(twice.steps, "in the faces that join the walls of a step");
   return fmt::format(
       "{}: area times thickness counts {:.1f} % of the volume twice ({}), at the result's {}: the mass of "
-      "the "
-      "shell is too large by that; scale the density there if it matters",
+      "the shell is too large by that; scale the density there if it matters",
       name, 100 * twice.sum() / volume, fmt::join(places, ", "), face_names(numbers));
 }
 
@@ -400,12 +373,10 @@ void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& n
     result.warnings.push_back(volume_sentence(result, middle.name, once));
   }
   if (twice.sum() <= worth_telling * result.volume) return;
-  std::vector<std::pair<double, int>> order;
+  std::set<std::pair<double, int>> order;  // the largest volume first
   for (const auto& [face, volume] : twice.faces) {
-    if (volume > 1e-3 * result.volume)
-      order.emplace_back(-volume, numbers.FindIndex(middle.faces[face].face));
+    if (volume > 1e-3 * result.volume) order.emplace(-volume, numbers.FindIndex(middle.faces[face].face));
   }
-  std::sort(order.begin(), order.end());
   std::vector<int> faces;
   faces.reserve(order.size());
   for (const auto& [volume, number] : order) faces.push_back(number);
@@ -472,83 +443,65 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
       middle.name, all.size(), fmt::join(parts, "; "));
 }
 
-/// The sentence for fillets whose material is in no thickness.
-std::string left_out_sentence(const SolidMiddle& middle, const Skin& skin) {
-  return fmt::format(
-      "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: walls "
-      "that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
-      middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer);
-}
-
-/// The sentence for walls that are narrow for a shell.
-std::string narrow_sentence(const SolidMiddle& middle, const Skin& skin) {
-  return fmt::format(
-      "{}: walls are less than {:g} times as wide as thick (between {}): where such walls bend across, or "
-      "the section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare "
-      "it with a mesh of the solid",
-      middle.name, slender, face_names(numbers_of(skin, middle.narrow)));
-}
-
-/// The sentence for faces, by numbers of the result, where hollow sections meet.
-std::string hollow_sentence(const std::string& name, const std::vector<int>& numbers) {
-  return fmt::format(
-      "{}: hollow sections meet at the result's {}: a shell has no depth there and can be some 15 % too soft "
-      "under loads that bend the walls of the joint; compare it with a mesh of the solid",
-      name, face_names(numbers));
-}
-
-/// Numbers of the faces and edges of the result.
-struct Numbers {
-  TopTools_IndexedMapOfShape faces, edges;
-};
-
-/// One sentence for each check of a solid that failed.
-std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin, const Numbers& numbers,
-                                       MidSurface& checked) {
+/// One sentence for each check of a solid that failed. \param numbers of the faces of the result.
+std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin,
+                                       const TopTools_IndexedMapOfShape& numbers, MidSurface& checked) {
   std::vector<std::string> problems;
-  check_volume(middle, numbers.faces, checked, problems);
-  if (middle.fillets.softer > 0) checked.warnings.push_back(left_out_sentence(middle, skin));
-  if (!middle.narrow.empty()) checked.warnings.push_back(narrow_sentence(middle, skin));
+  check_volume(middle, numbers, checked, problems);
+  if (middle.fillets.softer > 0)
+    checked.warnings.push_back(fmt::format(
+        "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: "
+        "walls "
+        "that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
+        middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer));
+  if (!middle.narrow.empty())
+    checked.warnings.push_back(fmt::format(
+        "{}: walls are less than {:g} times as wide as thick (between {}): where such walls bend across, or "
+        "the section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare "
+        "it with a mesh of the solid",
+        middle.name, slender, face_names(numbers_of(skin, middle.narrow))));
   std::vector<int> hollow;
   for (const std::size_t face : hollow_joints(skin, middle.faces))
-    hollow.push_back(numbers.faces.FindIndex(middle.faces[face].face));
-  if (!hollow.empty()) checked.warnings.push_back(hollow_sentence(middle.name, hollow));
+    hollow.push_back(numbers.FindIndex(middle.faces[face].face));
+  if (!hollow.empty())
+    checked.warnings.push_back(fmt::format(
+        "{}: hollow sections meet at the result's {}: a shell has no depth there and can be some 15 % too "
+        "soft under loads that bend the walls of the joint; compare it with a mesh of the solid",
+        middle.name, face_names(hollow)));
   if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
   if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle, skin));
   return problems;
 }
 
-MiddleFace description_of(const JoinedFace& joined, const Wall& wall, const Skin& skin) {
-  MiddleFace face;
-  face.thinnest = joined.coverage.thinnest;
-  face.thickest = joined.coverage.thickest;
-  face.thickness = joined.coverage.mean;
-  face.area = area_of(joined.face);
-  face.step = joined.step;
-  face.fitted = wall.fitted && !joined.step;
-  if (face.fitted) face.off = wall.off;
-  face.solid_faces = numbers_of(skin, joined.coverage.faces);
-  return face;
-}
-
 /// The checks of one solid's middle, and its figures. Writes the descriptions of its faces to `result`.
-MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin, const Numbers& numbers,
-                       const ExecutionContext& context, MidSurface& result) {
+/// \param numbers of the faces of the result.
+MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin,
+                       const TopTools_IndexedMapOfShape& numbers, const ExecutionContext& context,
+                       MidSurface& result) {
   MidSurface checked{result.model};
-  for (const JoinedFace& joined : middle.faces) {
+  for (const auto& [joined, own, step, coverage] : middle.faces) {
     context.check();
-    triangulate_middle(joined.face, middle.walls[joined.wall].thickness);  // for samples
-    MiddleFace& face = result.faces.at(numbers.faces.FindIndex(joined.face) - 1);
-    face = description_of(joined, middle.walls[joined.wall], skin);
-    face.solid = solid;
+    const Wall& wall = middle.walls[own];
+    triangulate_middle(joined, wall.thickness);  // for samples
+    MiddleFace& face = result.faces.at(numbers.FindIndex(joined) - 1);
+    face = {.thinnest = coverage.thinnest,
+            .thickest = coverage.thickest,
+            .thickness = coverage.mean,
+            .area = area_of(joined),
+            .solid_faces = numbers_of(skin, coverage.faces),
+            .solid = solid,
+            .step = step,
+            .fitted = wall.fitted && !step};
+    if (face.fitted) face.off = wall.off;
     checked.shell_volume += face.area * face.thickness;
   }
   checked.parts = static_cast<int>(connected_parts(middle.faces).size());
   checked.volume = middle.volume;
-  check_rims(skin, middle.walls, middle.faces, numbers.edges, context, checked);
+  check_rims(skin, middle.walls, middle.faces, map_of(result.model.shape().shape, TopAbs_EDGE), context,
+             checked);
   checked.counted_twice = middle.twice.sum();
   for (const std::size_t i : faces_of_wrong_thickness(skin, middle.walls, middle.faces, context))
-    checked.uneven.push_back(numbers.faces.FindIndex(middle.faces[i].face));
+    checked.uneven.push_back(numbers.FindIndex(middle.faces[i].face));
   sort_unique(checked.unpaired);
   return checked;
 }
@@ -573,10 +526,8 @@ void add_checked(const MidSurface& checked, MidSurface& result) {
 void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& skins,
                   const MidSurfaceOptions& options, ExecutionContext& context, MidSurface& result) {
   const auto& shape = result.model.shape().shape;
-  Numbers numbers;
-  TopExp::MapShapes(shape, TopAbs_FACE, numbers.faces);
-  TopExp::MapShapes(shape, TopAbs_EDGE, numbers.edges);
-  result.faces.resize(numbers.faces.Extent());
+  const TopTools_IndexedMapOfShape numbers = map_of(shape, TopAbs_FACE);
+  result.faces.resize(numbers.Extent());
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     context.check();
     SolidMiddle& middle = middles[solid];
@@ -597,40 +548,30 @@ void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& ski
   sort_unique(result.unpaired);
 }
 
-/// Evaluates thicknesses after the surface was made.
-struct ThicknessSource {
+/// See MidSurface::thickness_at. It keeps the skins.
+std::function<double(int, const Vector3&)> thickness_source(const std::vector<SolidMiddle>& middles,
+                                                            std::shared_ptr<const std::deque<Skin>> skins,
+                                                            const MidSurface& result) {
   struct Face {
     const Skin* skin = nullptr;
     Wall wall;
     Coverage coverage;
     bool varies = false;
   };
-  std::shared_ptr<const std::deque<Skin>> skins;
-  std::vector<Face> faces;  ///< by face number minus 1
-
-  double at(int face, const Vector3& point) const {
-    const Face& own = faces.at(face - 1);
-    if (!own.varies) return own.coverage.mean;
-    return thickness_at(own.coverage, own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
-  }
-};
-
-std::shared_ptr<const ThicknessSource> thickness_source(const std::vector<SolidMiddle>& middles,
-                                                        std::shared_ptr<const std::deque<Skin>> skins,
-                                                        const MidSurface& result) {
-  TopTools_IndexedMapOfShape numbers;
-  TopExp::MapShapes(result.model.shape().shape, TopAbs_FACE, numbers);
-  auto source = std::make_shared<ThicknessSource>();
-  source->skins = std::move(skins);
-  source->faces.resize(result.faces.size());
+  const TopTools_IndexedMapOfShape numbers = map_of(result.model.shape().shape, TopAbs_FACE);
+  const auto faces = std::make_shared<std::vector<Face>>(result.faces.size());  // by number minus 1
   for (std::size_t solid = 0; solid < middles.size(); ++solid) {
     for (const JoinedFace& joined : middles[solid].faces) {
       const int index = numbers.FindIndex(joined.face) - 1;
-      source->faces[index] = {&(*source->skins)[solid], middles[solid].walls[joined.wall], joined.coverage,
-                              varies(result.faces[index])};
+      (*faces)[index] = {&(*skins)[solid], middles[solid].walls[joined.wall], joined.coverage,
+                         varies(result.faces[index])};
     }
   }
-  return source;
+  return [skins = std::move(skins), faces](int face, const Vector3& point) {
+    const Face& own = faces->at(face - 1);
+    if (!own.varies) return own.coverage.mean;
+    return thickness_at(own.coverage, own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
+  };
 }
 
 /// The middle surface of each solid. \param name of the model.
@@ -678,8 +619,7 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
     if (middle.faces.empty() && middle.problems.empty())
       result.warnings.push_back("left out: " + not_thin_sentence(middle.name, options));
   }
-  const auto thickness = thickness_source(middles, skins, result);
-  result.thickness_at = [thickness](int face, const Vector3& point) { return thickness->at(face, point); };
+  result.thickness_at = thickness_source(middles, skins, result);
   return result;
 }
 

@@ -3,14 +3,13 @@
 #include "geometry/midsurface/parameter_range.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRep_Tool.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
+
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -21,9 +20,9 @@ ParameterRange plain_range(const std::vector<double>& values, double margin) {
   return {*low - margin, *high + margin};
 }
 
-/// The whole period, unless the values leave a wide gap.
-ParameterRange periodic_range(std::vector<double> values, double margin, double period, double start) {
-  for (double& value : values) value -= period * std::floor((value - start) / period);
+/// The whole period from 0, unless the values leave a wide gap.
+ParameterRange periodic_range(std::vector<double> values, double margin, double period) {
+  for (double& value : values) value -= period * std::floor(value / period);
   std::sort(values.begin(), values.end());
   double gap = values.front() + period - values.back(), after = values.front();
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -32,7 +31,7 @@ ParameterRange periodic_range(std::vector<double> values, double margin, double 
     after = values[i];
   }
   const double least_gap = period / 10;
-  if (gap < least_gap + 2 * margin) return {start, start + period};
+  if (gap < least_gap + 2 * margin) return {0, period};
   return {after - margin, after - gap + period + margin};
 }
 
@@ -42,9 +41,7 @@ std::vector<gp_Pnt> points_on_edges(const Skin& skin, const std::vector<int>& fa
   constexpr int intervals = 16;
   std::vector<gp_Pnt> result;
   for (const int face : faces) {
-    for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      if (BRep_Tool::Degenerated(edge)) continue;
+    for (const TopoDS_Edge& edge : edges_of(skin.faces()[face].face())) {
       const BRepAdaptor_Curve curve(edge);
       const double first = curve.FirstParameter(), last = curve.LastParameter();
       for (int i = 0; i <= intervals; ++i)
@@ -65,9 +62,8 @@ std::array<ParameterRange, 2> range_of(const Handle(Geom_Surface) & surface,
     vs.push_back(uv.Y());
   }
   const GeomAdaptor_Surface kind(surface);
-  return {
-      kind.IsUPeriodic() ? periodic_range(us, margins[0], kind.UPeriod(), 0) : plain_range(us, margins[0]),
-      kind.IsVPeriodic() ? periodic_range(vs, margins[1], kind.VPeriod(), 0) : plain_range(vs, margins[1])};
+  return {kind.IsUPeriodic() ? periodic_range(us, margins[0], kind.UPeriod()) : plain_range(us, margins[0]),
+          kind.IsVPeriodic() ? periodic_range(vs, margins[1], kind.VPeriod()) : plain_range(vs, margins[1])};
 }
 
 }  // namespace quadrille

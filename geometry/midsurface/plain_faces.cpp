@@ -3,24 +3,17 @@
 #include "geometry/midsurface/plain_faces.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Pln.hxx>
 #include <vector>
 
-#include "geometry/cad/face_exchange.hpp"
+#include "geometry/cad/bounding_box.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -55,14 +48,10 @@ TopoDS_Face plain_face(const TopoDS_Face& face, double near) {
 }  // namespace
 
 TopoDS_Shape with_plain_faces(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, Standard_False);
-  const double near = std::max(1e-7 * std::sqrt(box.SquareExtent()), Precision::Confusion());
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  std::vector<TopoDS_Shape> plain;
-  for (int i = 1; i <= faces.Extent(); ++i) plain.push_back(plain_face(TopoDS::Face(faces(i)), near));
-  return with_faces(shape, faces, plain);
+  const double near = std::max(1e-7 * std::sqrt(box_of(shape).SquareExtent()), Precision::Confusion());
+  std::vector<TopoDS_Shape> plain = list_of(shape, TopAbs_FACE);
+  for (TopoDS_Shape& face : plain) face = plain_face(TopoDS::Face(face), near);
+  return with_faces(shape, map_of(shape, TopAbs_FACE), plain);
 }
 
 }  // namespace quadrille

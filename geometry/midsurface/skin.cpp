@@ -3,22 +3,17 @@
 #include "geometry/midsurface/skin.hpp"
 #include "geometry/base/whole_number.hpp"
 
-#include <BRepBndLib.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <ElSLib.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 
+#include "geometry/cad/bounding_box.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
@@ -120,23 +115,19 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least) {
 }
 
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
-  TopoDS_Compound faces;
-  const BRep_Builder builder;
-  builder.MakeCompound(faces);
-  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
-    if (!has_many_holes(TopoDS::Face(it.Current()))) builder.Add(faces, it.Current());
-  BRepMesh_IncrementalMesh(faces, deflection, Standard_False, angle, Standard_False);
+  std::vector<TopoDS_Shape> faces = list_of(shape, TopAbs_FACE);
+  std::erase_if(faces, [](const TopoDS_Shape& face) { return has_many_holes(TopoDS::Face(face)); });
+  BRepMesh_IncrementalMesh(compound_of(faces), deflection, Standard_False, angle, Standard_False);
 }
 
 SkinFace::SkinFace(const TopoDS_Face& face, int number)
     : face_(face),
       number_(number),
       area_(area_of(face)),
+      box_(box_of(face)),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
       inverse_(std::make_shared<ClosestPoint>(face)),
-      inside_(std::make_shared<InsideTest>(face)) {
-  BRepBndLib::Add(face, box_, Standard_False);
-}
+      inside_(std::make_shared<InsideTest>(face)) {}
 
 std::optional<gp_Dir> SkinFace::outward(const gp_Pnt2d& uv) const {
   gp_Pnt at;

@@ -125,7 +125,7 @@ class Skin {
   const TopoDS_Solid& solid() const { return solid_; }
   const std::vector<SkinFace>& faces() const { return faces_; }
   /// Index of a face of the solid; -1 if it is none.
-  int index_of(const TopoDS_Face& face) const { return map_.FindIndex(face) - 1; }
+  int index_of(const TopoDS_Shape& face) const { return map_.FindIndex(face) - 1; }
   /// The faces around each edge, and around one of them; the same twice at a seam.
   const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
   const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }

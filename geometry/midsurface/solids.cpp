@@ -3,17 +3,16 @@
 #include "geometry/midsurface/solids.hpp"
 
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepLib.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopTools_ListOfShape.hxx>
-#include <TopoDS.hxx>
 #include <optional>
 #include <vector>
 
 #include "geometry/base/error.hpp"
+#include "geometry/cad/bounding_box.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/gaps.hpp"
 
@@ -23,7 +22,7 @@ namespace {
 
 /// Solids, and the numbers of their faces.
 struct Solids {  // NOLINT(bugprone-exception-escape): OpenCASCADE's maps do not say noexcept
-  TopTools_IndexedMapOfShape solids;
+  std::vector<TopoDS_Shape> solids;
   TopTools_DataMapOfShapeInteger numbers;
 };
 
@@ -35,23 +34,19 @@ TopoDS_Solid right_way_out(const TopoDS_Shape& shape) {
 }
 
 Solids solids_of(const TopoDS_Shape& shape) {
-  Solids result;
-  TopTools_IndexedMapOfShape faces, solids;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
-  for (int i = 1; i <= faces.Extent(); ++i) result.numbers.Bind(faces(i), i);
-  for (int i = 1; i <= solids.Extent(); ++i) result.solids.Add(right_way_out(solids(i)));
+  Solids result{list_of(shape, TopAbs_SOLID), {}};
+  for (const TopoDS_Shape& face : list_of(shape, TopAbs_FACE))
+    result.numbers.Bind(face, result.numbers.Extent() + 1);
+  for (TopoDS_Shape& solid : result.solids) solid = right_way_out(solid);
   return result;
 }
 
 std::deque<Skin> skins_of(const Solids& solids, const ExecutionContext& context) {
   std::deque<Skin> result;
-  for (int i = 1; i <= solids.solids.Extent(); ++i) {
+  for (const TopoDS_Shape& shape : solids.solids) {
     context.check();
-    const TopoDS_Solid solid = right_way_out(solids.solids(i));
-    Bnd_Box box;
-    BRepBndLib::Add(solid, box, Standard_False);
-    triangulate(solid, 1e-3 * std::sqrt(box.SquareExtent()));
+    const TopoDS_Solid solid = right_way_out(shape);
+    triangulate(solid, 1e-3 * std::sqrt(box_of(solid).SquareExtent()));
     result.emplace_back(solid, solids.numbers);
   }
   return result;
@@ -77,8 +72,8 @@ std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins, const Execution
 
 /// Whether the solids contain all points. OpenCASCADE may lose solids where surfaces are nearly tangent.
 bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionContext& context) {
-  for (int i = 1; i <= solids.solids.Extent(); ++i) {
-    BRepClass3d_SolidClassifier classifier(solids.solids(i));
+  for (const TopoDS_Shape& solid : solids.solids) {
+    BRepClass3d_SolidClassifier classifier(solid);
     std::erase_if(points, [&](const gp_Pnt& point) {
       context.check();
       classifier.Perform(point, Precision::Confusion());
@@ -88,25 +83,16 @@ bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionConte
   return points.empty();
 }
 
-/// Adds the solids that fill the gaps.
-void close_gaps(const std::deque<Skin>& skins, const ExecutionContext& context, Solids& solids) {
-  const GapFillers fillers = fill_gaps(skins, context);
-  for (const TopoDS_Shape& filler : fillers.solids) solids.solids.Add(right_way_out(filler));
-  for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
-    solids.numbers.Bind(it.Key(), it.Value());
-}
-
 Solids fused(const Solids& apart, const ExecutionContext& context) {
   TopTools_ListOfShape first, others;
-  for (int i = 1; i <= apart.solids.Extent(); ++i) (i == 1 ? first : others).Append(apart.solids(i));
+  for (const TopoDS_Shape& solid : apart.solids) (first.IsEmpty() ? first : others).Append(solid);
   BRepAlgoAPI_Fuse fuse;
   fuse.SetArguments(first);
   fuse.SetTools(others);
   fuse.SetNonDestructive(Standard_True);
   under_limit(context, [&](const Message_ProgressRange& range) { fuse.Build(range); });
   if (fuse.HasErrors()) throw failure("", "the solids cannot be joined to one");
-  Solids result;
-  TopExp::MapShapes(fuse.Shape(), TopAbs_SOLID, result.solids);
+  Solids result{list_of(fuse.Shape(), TopAbs_SOLID), {}};
   for (TopTools_DataMapOfShapeInteger::Iterator it(apart.numbers); it.More(); it.Next()) {
     TopTools_ListOfShape parts = fuse.Modified(it.Key());
     if (parts.IsEmpty()) parts.Append(it.Key());
@@ -125,7 +111,10 @@ std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join, const ExecutionC
   Solids solids = solids_of(shape);
   std::deque<Skin> skins = skins_of(solids, context);
   if (!join || skins.size() < 2) return skins;
-  close_gaps(skins, context, solids);
+  const GapFillers fillers = fill_gaps(skins, context);
+  for (const TopoDS_Shape& filler : fillers.solids) solids.solids.push_back(right_way_out(filler));
+  for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
+    solids.numbers.Bind(it.Key(), it.Value());
   const Solids whole = fused(solids, context);
   if (!hold(whole, points_inside(skins, context), context))
     throw failure("", "the solids cannot be joined to one");

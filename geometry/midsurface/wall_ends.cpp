@@ -8,7 +8,6 @@
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
-#include <BRep_Tool.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <GeomFill.hxx>
@@ -17,12 +16,7 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,6 +27,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/wall_pieces.hpp"
 #include "geometry/midsurface/widths.hpp"
 
@@ -64,6 +59,8 @@ class FaceEdge {
     result.last_ = last;
     return result;
   }
+  /// The parameter at a share of the way along it.
+  double at(double share) const { return first_ + share * (last_ - first_); }
   bool closed() const {
     return curve_.Value(first()).Distance(curve_.Value(last())) < Precision::Confusion();
   }
@@ -119,7 +116,7 @@ Handle(Geom_Curve) interpolated(const FaceEdge& edge, double depth) {
 /// interpolated. \param longer length by which a line or an arc is extended at both ends.
 Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   const double first = edge.first(), last = edge.last(), near = 1e-5 * std::abs(depth);
-  const auto at = [&](double share) { return edge.inside(first + share * (last - first), depth); };
+  const auto at = [&](double share) { return edge.inside(edge.at(share), depth); };
   if (const double length = at(0).Distance(at(1)); length > near) {
     const gp_Lin line(at(0), gp_Dir(gp_Vec(at(0), at(1))));
     const auto is_on_line = [&](double share) { return line.Distance(at(share)) < near; };
@@ -205,7 +202,7 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
         break;  // what is found farther away is behind a wall, not behind a riser
       for (const double share : {0.5, 0.25, 0.75, 0.06, 0.94}) {
         if (std::abs(share - 0.5) > 0.3 && result.empty()) continue;  // only others beside what is found
-        const double at = edge.first() + share * (edge.last() - edge.first());
+        const double at = edge.at(share);
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
           if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
@@ -217,16 +214,6 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
     }
   }
   return result;
-}
-
-/// The same at any of the depths that are searched: the floor behind an edge may lean. \param t thickness of
-/// the edge's wall.
-bool begins_anywhere_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
-                            const NextWall& next, double t) {
-  if (begins_behind(skin, wall, edge, at, next)) return true;
-  return std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
-    return begins_behind(skin, wall, edge, at, {next.wall, next.away, depth * t, at});
-  });
 }
 
 /// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
@@ -249,12 +236,6 @@ double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double
     depth -= gp_Vec(point, middle).Dot(gp_Vec(edge.outward(at)));
   }
   return depth;
-}
-
-double thickest_of(const std::vector<Wall>& walls) {
-  double result = 0;
-  for (const Wall& wall : walls) result = std::max(result, wall.thickness);
-  return result;
 }
 
 /// Whether the middles of two walls meet in a corner at the edge, as at a sharp fold. Such walls are extended
@@ -309,9 +290,9 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   bool step = false;
   double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
-    double at = edge.first() + share * (edge.last() - edge.first());
     // Behind the middle of the edge there may be another wall, beside this one.
-    if (share == 0.5 && edge.first() < next.at && next.at < edge.last()) at = next.at;
+    const bool elsewhere = share == 0.5 && edge.first() < next.at && next.at < edge.last();
+    const double at = elsewhere ? next.at : edge.at(share);
     const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
     const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
@@ -327,7 +308,9 @@ WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, con
   high -= 0.1 * t;
   low += 0.1 * t;
   // A rib across the bend interrupts the edge, not the wall: the fence is extended through the rib.
-  const double longer = step ? 0 : thickest_of(walls);
+  double longer = 0;
+  if (!step)
+    for (const Wall& other : walls) longer = std::max(longer, other.thickness);
   return {wall, next.wall, face_between(moved(edge, high, longer), moved(edge, low, longer)), step};
 }
 
@@ -339,7 +322,13 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   constexpr int count = 32;
   const double first = edge.first(), length = edge.last() - first;
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
-  const auto begins = [&](double t) { return begins_anywhere_behind(skin, wall, edge, t, next, thickness); };
+  // At any of the depths that are searched: the floor behind an edge may lean.
+  const auto begins = [&](double t) {
+    return begins_behind(skin, wall, edge, t, next) ||
+           std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
+             return begins_behind(skin, wall, edge, t, {next.wall, next.away, depth * thickness, t});
+           });
+  };
   const auto is_material = [&](double t) {
     return skin.in_material(edge.inside(t, next.depth).Translated(next.away * edge.away(t)));
   };
@@ -390,37 +379,24 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
 
 /// Whether a point lies near one of the others. If not, adds it to them.
 bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) {
-  for (const gp_Pnt& other : others) {
-    if (other.Distance(point) < distance) return true;
-  }
-  others.push_back(point);
-  return false;
+  const bool result = std::any_of(others.begin(), others.end(),
+                                  [&](const gp_Pnt& other) { return other.Distance(point) < distance; });
+  if (!result) others.push_back(point);
+  return result;
 }
 
-/// The edges of the skin that separate two surfaces.
-class Borders {
- public:
-  Borders(const Skin& skin, const std::vector<int>& surfaces) : skin_(skin), surfaces_(surfaces) {}
-
-  /// The edges of a face that lead to another surface.
-  std::vector<FaceEdge> of_face(const SkinFace& face) const {
-    std::vector<FaceEdge> result;
-    for (TopExp_Explorer it(face.face(), TopAbs_EDGE); it.More(); it.Next()) {
-      const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-      const TopTools_ListOfShape& around = skin_.faces_of(edge);
-      if (BRep_Tool::Degenerated(edge) || number(around.First()) == number(around.Last())) continue;
-      const TopoDS_Shape& other = around.First().IsSame(face.face()) ? around.Last() : around.First();
-      result.emplace_back(face, skin_.faces()[skin_.index_of(TopoDS::Face(other))], edge);
-    }
-    return result;
+/// The edges of a face that lead to another surface. \param surfaces numbers of the faces' surfaces
+std::vector<FaceEdge> borders_of(const SkinFace& face, const Skin& skin, const std::vector<int>& surfaces) {
+  std::vector<FaceEdge> result;
+  for (const TopoDS_Edge& edge : edges_of(face.face())) {
+    const TopTools_ListOfShape& around = skin.faces_of(edge);
+    const int first = skin.index_of(around.First()), last = skin.index_of(around.Last());
+    if (surfaces[first] == surfaces[last]) continue;
+    const int other = around.First().IsSame(face.face()) ? last : first;
+    result.emplace_back(face, skin.faces()[other], edge);
   }
-
- private:
-  int number(const TopoDS_Shape& face) const { return surfaces_[skin_.index_of(TopoDS::Face(face))]; }
-
-  const Skin& skin_;
-  const std::vector<int>& surfaces_;
-};
+  return result;
+}
 
 /// An edge of a wall's side at one of its vertices.
 struct EdgeEnd {
@@ -446,64 +422,56 @@ std::vector<EdgeEnd> ends_at(const gp_Pnt& vertex, const std::vector<FaceEdge>& 
   return result;
 }
 
-/// Whether the wall's middle continues past the edge inside the material.
-bool runs_on(const Skin& skin, const FaceEdge& edge, double thickness) {
-  const double at = 0.5 * (edge.first() + edge.last());
-  return skin.in_material(edge.inside(at, 0.5 * thickness).Translated(0.05 * thickness * edge.away(at)));
-}
+using EdgeEnds = std::vector<std::pair<gp_Pnt, gp_Dir>>;
 
 /// The ends of a solid's edges, with the directions in which the edges leave them.
-class EdgeEnds {
- public:
-  explicit EdgeEnds(const TopoDS_Solid& solid) {
-    TopTools_IndexedMapOfShape edges;
-    TopExp::MapShapes(solid, TopAbs_EDGE, edges);
-    for (int i = 1; i <= edges.Extent(); ++i) {
-      const TopoDS_Edge& edge = TopoDS::Edge(edges(i));
-      if (BRep_Tool::Degenerated(edge)) continue;
-      const BRepAdaptor_Curve curve(edge);
-      for (const bool last : {false, true}) {
-        gp_Pnt at;
-        gp_Vec along;
-        curve.D1(last ? curve.LastParameter() : curve.FirstParameter(), at, along);
-        if (along.Magnitude() < Precision::Confusion()) continue;
-        ends_.emplace_back(at, gp_Dir(last ? along.Reversed() : along));
-      }
+EdgeEnds edge_ends(const TopoDS_Solid& solid) {
+  EdgeEnds result;
+  for (const TopoDS_Shape& edge : list_of(solid, TopAbs_EDGE)) {
+    if (BRep_Tool::Degenerated(TopoDS::Edge(edge))) continue;
+    const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
+    for (const bool last : {false, true}) {
+      gp_Pnt at;
+      gp_Vec along;
+      curve.D1(last ? curve.LastParameter() : curve.FirstParameter(), at, along);
+      if (along.Magnitude() < Precision::Confusion()) continue;
+      result.emplace_back(at, gp_Dir(last ? along.Reversed() : along));
     }
   }
+  return result;
+}
 
-  /// The direction of the edge that leaves a point most nearly along a wanted direction; the wanted direction
-  /// if there is no edge within 45 degrees of it. \param near edges that start closer to the point than this
-  /// leave it.
-  gp_Dir leaving(const gp_Pnt& point, const gp_Dir& wanted, double near) const {
-    gp_Dir best = wanted;
-    double most = nearly_parallel;
-    for (const auto& [at, along] : ends_) {
-      if (at.Distance(point) > near || along.Dot(wanted) < most) continue;
-      most = along.Dot(wanted);
-      best = along;
-    }
-    return best;
+/// The direction of the edge that leaves a point most nearly along a wanted direction; the wanted direction
+/// if there is no edge within 45 degrees of it. \param near edges that start closer to the point than this
+/// leave it.
+gp_Dir leaving(const EdgeEnds& ends, const gp_Pnt& point, const gp_Dir& wanted, double near) {
+  gp_Dir best = wanted;
+  double most = nearly_parallel;
+  for (const auto& [at, along] : ends) {
+    if (at.Distance(point) > near || along.Dot(wanted) < most) continue;
+    most = along.Dot(wanted);
+    best = along;
   }
-
- private:
-  std::vector<std::pair<gp_Pnt, gp_Dir>> ends_;
-};
+  return best;
+}
 
 /// Finds where a wall runs into others but its rim stops at their skin.
 class RimEnds {
  public:
   RimEnds(const Skin& skin, const std::vector<Wall>& walls)
-      : skin_(skin), walls_(walls), edges_(skin.solid()) {}
+      : skin_(skin), walls_(walls), edges_(edge_ends(skin.solid())) {}
 
   /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
     std::map<const FaceEdge*, bool> known;
+    // Whether the wall's middle continues past the edge inside the material.
     const auto goes_on = [&](const FaceEdge& edge) {
       const auto [entry, is_new] = known.try_emplace(&edge, false);
-      if (is_new) entry->second = runs_on(skin_, edge, t);
+      const double at = 0.5 * (edge.first() + edge.last());
+      if (is_new)
+        entry->second = skin_.in_material(edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at)));
       return entry->second;
     };
     for (const FaceEdge& edge : edges) {
@@ -535,7 +503,7 @@ class RimEnds {
   bool runs_under_an_end(int own, const FaceEdge& edge) const {
     const double t = walls_[own].thickness;
     const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
-      const double at = edge.first() + share * (edge.last() - edge.first());
+      const double at = edge.at(share);
       const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
       const auto position = position_in(wall, skin_, above);
       if (!position) return std::nullopt;
@@ -574,7 +542,7 @@ class RimEnds {
   /// tangent would be past the side: it begins before that.
   TopoDS_Face fence(const EdgeEnd& end, const gp_Vec& away, double length, double t) const {
     const gp_Pnt vertex = end.edge->curve().Value(end.at);
-    const gp_Dir across = edges_.leaving(vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
+    const gp_Dir across = leaving(edges_, vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
     const double wide = t / std::max(0.5, -across.Dot(end.edge->outward(end.at)));
     const gp_Pnt half_way = vertex.Translated(0.5 * t * gp_Vec(across));
     const SkinFace& beside = end.edge->beside();
@@ -607,14 +575,11 @@ int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const Face
   constexpr double reach = 0.02;  // over the thickness
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends[i].wall != wall || ends[i].next != next || ends[i].step) continue;
-    bool along = true;
-    for (const double share : {0.5, 0.05, 0.95}) {
-      if (!along) break;
-      const double at = edge.first() + share * (edge.last() - edge.first());
-      const auto way = way_from(ends[i].fence, edge.inside(at, 0.5 * thickness));
-      along = way && way->Magnitude() < reach * thickness;
-    }
-    if (along) return static_cast<int>(i);
+    const auto stands_at = [&](double share) {
+      const auto way = way_from(ends[i].fence, edge.inside(edge.at(share), 0.5 * thickness));
+      return way && way->Magnitude() < reach * thickness;
+    };
+    if (stands_at(0.5) && stands_at(0.05) && stands_at(0.95)) return static_cast<int>(i);
   }
   return -1;
 }
@@ -626,11 +591,6 @@ void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
   gp_Trsf half;
   half.SetTranslation(0.5 * *way);
   fence = TopoDS::Face(BRepBuilderAPI_Transform(fence, half, Standard_True).Shape());
-}
-
-/// Whether the middles of two walls share bounds.
-bool goes_on_into(const Wall& wall, int next) {
-  return std::find(wall.goes_on.begin(), wall.goes_on.end(), next) != wall.goes_on.end();
 }
 
 /// Finds where walls end and others begin.
@@ -652,7 +612,7 @@ class WallEnds {
   }
 
   /// Forgets the risers along which fences do not stand everywhere.
-  void keep_whole_risers(const Borders& borders) {
+  void keep_whole_risers(const std::vector<int>& surfaces) {
     std::map<std::pair<int, int>, int> open;  // by wall and riser: edges between them without a fence
     for (const WallEnd& end : ends_) {
       if (end.riser >= 0) --open[{end.wall, end.riser}];
@@ -661,7 +621,7 @@ class WallEnds {
     for (const auto& [key, count] : open) walls.insert(key.first);
     for (const int wall : walls) {
       for (const int index : both_sides(walls_[wall])) {
-        for (const FaceEdge& edge : borders.of_face(skin_.faces()[index])) {
+        for (const FaceEdge& edge : borders_of(skin_.faces()[index], skin_, surfaces)) {
           const auto entry = open.find({wall, skin_.index_of(edge.beside().face())});
           if (entry != open.end()) ++entry->second;
         }
@@ -691,7 +651,8 @@ class WallEnds {
   bool add(int wall, int side, const FaceEdge& edge, const NextWall& next,
            const std::vector<NextWall>& beside) {
     const double t = walls_[wall].thickness;
-    if (goes_on_into(walls_[wall], next.wall)) return false;
+    const std::vector<int>& without_fence = walls_[wall].goes_on;
+    if (std::find(without_fence.begin(), without_fence.end(), next.wall) != without_fence.end()) return false;
     const bool riser = next.away > close_by * t;
     if (riser && !stands_on(walls_, wall, next.wall)) return false;
     if (meet_in_corner(skin_, walls_, wall, next, edge)) return false;
@@ -728,7 +689,7 @@ class WallEnds {
     const double t = walls_[thinner.wall].thickness;
     for (const double share : {0.5, 0.05, 0.95}) {
       const FaceEdge& edge = thinner.edge;
-      const double at = edge.first() + share * (edge.last() - edge.first());
+      const double at = edge.at(share);
       const gp_Pnt middle =
           edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
       const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
@@ -817,12 +778,12 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
-    for (TopExp_Explorer it(face.face(), TopAbs_EDGE); wall >= 0 && it.More(); it.Next()) {
-      const TopoDS_Edge& border = TopoDS::Edge(it.Current());
+    if (wall < 0) continue;
+    for (const TopoDS_Edge& border : edges_of(face.face())) {
       for (const TopoDS_Shape& next : skin.faces_of(border)) {
-        const int fillet = skin.index_of(TopoDS::Face(next));
+        const int fillet = skin.index_of(next);
         const SkinFace& beside = skin.faces()[fillet];
-        if (wall_of[fillet] >= 0 || BRep_Tool::Degenerated(border)) continue;
+        if (wall_of[fillet] >= 0) continue;
         const FaceEdge edge(face, beside, border);
         const auto turn = turn_of_fillet(edge, face, beside);
         if (!turn) continue;
@@ -843,13 +804,12 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces, const ExecutionContext& context) {
-  const Borders borders(skin, surfaces);
   WallEnds ends(skin, walls);
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     for (int side = 0; side < 2; ++side) {
       for (const int index : walls[wall].sides[side]) {
         const SkinFace& face = skin.faces()[index];
-        for (const FaceEdge& edge : borders.of_face(face)) {
+        for (const FaceEdge& edge : borders_of(face, skin, surfaces)) {
           context.check();
           ends.add(wall, side, edge);
         }
@@ -857,13 +817,12 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
     }
   }
   ends.add_thinner();
-  ends.keep_whole_risers(borders);
+  ends.keep_whole_risers(surfaces);
   return ends.found();
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces, const ExecutionContext& context) {
-  const Borders borders(skin, surfaces);
   RimEnds rims(skin, walls);
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
@@ -871,7 +830,7 @@ std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& wa
     for (const int index : both_sides(walls[wall])) {
       context.check();
       const SkinFace& face = skin.faces()[index];
-      rims.add(wall, walls[wall].thickness, borders.of_face(face), centers, ends);
+      rims.add(wall, walls[wall].thickness, borders_of(face, skin, surfaces), centers, ends);
     }
   }
   return ends;

@@ -3,23 +3,18 @@
 #include "geometry/midsurface/wall_pieces.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <algorithm>
 #include <cmath>
 #include <gp_Cone.hxx>
 #include <set>
 
+#include "geometry/cad/bounding_box.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/midsurface/fusing.hpp"
 #include "geometry/midsurface/parameter_range.hpp"
 #include "geometry/midsurface/widths.hpp"
@@ -40,7 +35,7 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
       result.insert(face);
       for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
         for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
-          const int index = skin.index_of(TopoDS::Face(neighbor));
+          const int index = skin.index_of(neighbor);
           if (in_walls.count(index) == 0) result.insert(index);
         }
       }
@@ -128,19 +123,14 @@ std::set<int> left_out(const std::vector<Wall>& walls, int wall, const std::vect
 /// intersections among them.
 std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left_out,
                                      const TopoDS_Face& patch) {
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  bool any = false;
-  Bnd_Box box;
-  BRepBndLib::Add(patch, box, Standard_False);
+  std::vector<TopoDS_Face> result;
+  const Bnd_Box box = box_of(patch);
   for (std::size_t i = 0; i < skin.faces().size(); ++i) {
-    if (left_out.count(static_cast<int>(i)) != 0 || box.IsOut(skin.faces()[i].box())) continue;
-    builder.Add(result, skin.faces()[i].face());
-    any = true;
+    if (left_out.count(static_cast<int>(i)) == 0 && !box.IsOut(skin.faces()[i].box()))
+      result.push_back(skin.faces()[i].face());
   }
-  if (!any) return {};
-  return {result};
+  if (result.empty()) return {};
+  return {compound_of(result)};
 }
 
 /// Adds the corners to the thickness range: there a varying thickness has its extremes, outside the samples.
@@ -171,6 +161,33 @@ Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, T
   if (covered > 0) result.mean /= covered;
   if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, skin, result);
   result.share = area > 0 ? covered / area : 0;
+  return result;
+}
+
+/// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
+std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others,
+                                const ExecutionContext& context) {
+  if (others.empty()) return {face};
+  BOPAlgo_Builder cutter;
+  cutter.AddArgument(face);
+  for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
+  perform(cutter, context);
+  if (cutter.HasErrors()) return {};
+  std::vector<TopoDS_Face> result;
+  for (const TopoDS_Shape& piece : images(cutter, face)) result.push_back(TopoDS::Face(piece));
+  return result;
+}
+
+/// The pieces that lie, at least in part, between the sides of the wall.
+std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
+                                       const Skin& skin, const ExecutionContext& context) {
+  constexpr double least_share = 0.02;
+  std::vector<TopoDS_Face> result;
+  for (const TopoDS_Face& piece : pieces) {
+    context.check();
+    triangulate_middle(piece, wall.thickness);
+    if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
+  }
   return result;
 }
 
@@ -205,37 +222,6 @@ Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Sk
   result.share = 0;  // none of it lies between both sides
   return result;
 }
-
-namespace {
-
-/// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
-std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others,
-                                const ExecutionContext& context) {
-  if (others.empty()) return {face};
-  BOPAlgo_Builder cutter;
-  cutter.AddArgument(face);
-  for (const TopoDS_Shape& other : others) cutter.AddArgument(other);
-  perform(cutter, context);
-  if (cutter.HasErrors()) return {};
-  std::vector<TopoDS_Face> result;
-  for (const TopoDS_Shape& piece : images(cutter, face)) result.push_back(TopoDS::Face(piece));
-  return result;
-}
-
-/// The pieces that lie, at least in part, between the sides of the wall.
-std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
-                                       const Skin& skin, const ExecutionContext& context) {
-  constexpr double least_share = 0.02;
-  std::vector<TopoDS_Face> result;
-  for (const TopoDS_Face& piece : pieces) {
-    context.check();
-    triangulate_middle(piece, wall.thickness);
-    if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
-  }
-  return result;
-}
-
-}  // namespace
 
 std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                      const std::vector<WallEnd>& ends, const ExecutionContext& context) {

@@ -137,8 +137,8 @@ using Touching = std::set<std::pair<int, int>>;
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
   Touching result;
   for (const TopTools_ListOfShape& faces : skin.faces_of_edges()) {
-    const int a = surfaces[skin.index_of(TopoDS::Face(faces.First()))];
-    const int b = surfaces[skin.index_of(TopoDS::Face(faces.Last()))];
+    const int a = surfaces[skin.index_of(faces.First())];
+    const int b = surfaces[skin.index_of(faces.Last())];
     result.insert({a, b});
     result.insert({b, a});
   }
@@ -299,7 +299,6 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
     thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.thickness_area / pair.area();
   std::set<int> chained;   // surfaces
   std::vector<int> index;  // of each wall of the chains in `walls`; -1 = it cannot be fitted
-  const std::size_t first = walls.size();
   for (std::size_t i = 0; i < chains.size(); ++i) {
     context.check();
     const auto [a, b] = std::minmax(surfaces[chains[i].faces[0]], surfaces[chains[i].faces[1]]);
@@ -308,12 +307,10 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
     index.push_back(wall ? static_cast<int>(walls.size()) : -1);
     if (wall) walls.push_back(*wall);
   }
-  for (std::size_t i = 0, wall = first; i < chains.size(); ++i) {
-    if (index[i] < 0) continue;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
     for (const std::size_t next : chains[i].next) {
-      if (index[next] >= 0) walls[wall].goes_on.push_back(index[next]);
+      if (index[i] >= 0 && index[next] >= 0) walls[index[i]].goes_on.push_back(index[next]);
     }
-    ++wall;
   }
   std::erase_if(pairs, [&](const SurfacePair& pair) {
     return chained.count(pair.surfaces[0]) != 0 && chained.count(pair.surfaces[1]) != 0;

@@ -4,11 +4,10 @@
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepGProp.hxx>
-#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <cmath>
+
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -36,10 +35,8 @@ double width_of(double area, double perimeter) {
 
 double width_of(const TopoDS_Face& face) {
   double perimeter = 0;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-    if (!BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, face)) perimeter += length_of(edge);
-  }
+  for (const TopoDS_Edge& edge : edges_of(face))
+    if (!BRep_Tool::IsClosed(edge, face)) perimeter += length_of(edge);
   return width_of(area_of(face), perimeter);
 }
 

@@ -11,7 +11,6 @@
 #include <StepData_StepWriter.hxx>
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -33,8 +32,7 @@ Handle(TCollection_HAsciiString) name_of(const Handle(Standard_Transient) & enti
 
 /// Parts of an assembly that are the same have the same faces in other places, and so the same names.
 quadrille::FaceNames face_names(const STEPControl_Reader& reader, const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = quadrille::map_of(shape, TopAbs_FACE);
   std::unordered_map<const TopoDS_TShape*, std::vector<int>> numbers;
   for (int i = 1; i <= faces.Extent(); ++i) numbers[faces(i).TShape().get()].push_back(i);
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();

@@ -2,7 +2,6 @@
 /// Reading with OpenCASCADE's readers of exchange formats, with the same result in every run.
 
 #include <BRepLib.hxx>
-#include <BRep_Tool.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <Interface_Static.hxx>
 #include <ShapeAlgo.hxx>
@@ -11,14 +10,8 @@
 #include <ShapeFix_Face.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
-#include <TopoDS_Shape.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <array>
 #include <cstddef>
@@ -28,6 +21,7 @@
 
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/face_names.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -90,16 +84,14 @@ class HealingScope {
 /// takes from a hash map of addresses, so the order and numbers of the edges change from run to run.
 inline bool touches_beside_seam(const TopoDS_Face& face) {
   TopTools_MapOfShape once, twice;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    if (!BRep_Tool::Degenerated(TopoDS::Edge(it.Current())) && !once.Add(it.Current()))
-      twice.Add(it.Current());
-  }
+  for (const TopoDS_Edge& edge : edges_of(face))
+    if (!once.Add(edge)) twice.Add(edge);
   if (twice.IsEmpty()) return false;
   TopTools_DataMapOfShapeInteger ends;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    if (!once.Contains(it.Current()) || twice.Contains(it.Current())) continue;
+  for (const TopoDS_Edge& edge : edges_of(face)) {
+    if (twice.Contains(edge)) continue;
     TopoDS_Vertex first, last;
-    TopExp::Vertices(TopoDS::Edge(it.Current()), first, last);
+    TopExp::Vertices(edge, first, last);
     for (const TopoDS_Vertex& vertex : {first, last}) {
       if (vertex.IsNull()) continue;
       if (!ends.IsBound(vertex)) ends.Bind(vertex, 0);

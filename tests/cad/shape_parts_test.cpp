@@ -1,17 +1,15 @@
-/// Solids built of other faces are what they were, wherever they stand and however they are turned.
+/// Parts come once and in order. Solids built of other faces are what they were, wherever they stand and
+/// however they are turned.
 
-#include "geometry/cad/face_exchange.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRep_Builder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
 #include <GProp_GProps.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS_Compound.hxx>
 
 namespace quadrille {
 namespace {
@@ -22,12 +20,7 @@ TopoDS_Shape boxes() {
   gp_Trsf motion;
   motion.SetRotation(gp_Ax1(gp_Pnt(5, 0, 0), gp::DZ()), 0.3);
   const TopExp_Explorer face(box, TopAbs_FACE);
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  for (const TopoDS_Shape& part : {box, box.Moved(motion), face.Current().Reversed()})
-    builder.Add(result, part);
-  return result;
+  return compound_of(std::vector{box, box.Moved(motion), face.Current().Reversed()});
 }
 
 /// Volume and center of each solid, in order.
@@ -41,13 +34,29 @@ std::vector<std::pair<double, gp_Pnt>> masses(const TopoDS_Shape& shape) {
   return result;
 }
 
-TEST(FaceExchange, KeepsSolidsTheirPlacesAndTheSidesOfFaces) {
+TEST(ShapeParts, ComeOnceAndInOrder) {
   const TopoDS_Shape shape = boxes();
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape edges = map_of(shape, TopAbs_EDGE);
+  const std::vector<TopoDS_Shape> list = list_of(shape, TopAbs_EDGE);
+  ASSERT_EQ(list.size(), 24U);
+  for (std::size_t i = 0; i < list.size(); ++i) EXPECT_EQ(edges.FindIndex(list[i]), static_cast<int>(i) + 1);
+}
+
+TEST(ShapeParts, EdgesOfAFaceAreItsSeamTwiceAndNoPole) {
+  const TopoDS_Shape sphere = BRepPrimAPI_MakeSphere(1).Shape();
+  EXPECT_EQ(list_of(sphere, TopAbs_EDGE).size(), 3U);
+  const std::vector<TopoDS_Edge> edges = edges_of(sphere);
+  ASSERT_EQ(edges.size(), 2U);
+  EXPECT_TRUE(edges[0].IsSame(edges[1]));
+  EXPECT_NE(edges[0].Orientation(), edges[1].Orientation());
+}
+
+TEST(ShapeParts, ExchangeOfFacesKeepsSolidsTheirPlacesAndTheSidesOfFaces) {
+  const TopoDS_Shape shape = boxes();
+  const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
   ASSERT_EQ(faces.Extent(), 12);
-  std::vector<TopoDS_Shape> others;
-  for (int i = 1; i <= faces.Extent(); ++i) others.push_back(BRepBuilderAPI_Copy(faces(i)).Shape());
+  std::vector<TopoDS_Shape> others = list_of(shape, TopAbs_FACE);
+  for (TopoDS_Shape& face : others) face = BRepBuilderAPI_Copy(face).Shape();
   const TopoDS_Shape result = with_faces(shape, faces, others);
   const auto before = masses(shape), after = masses(result);
   ASSERT_EQ(after.size(), 2U);
