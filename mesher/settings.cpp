@@ -7,7 +7,6 @@
 #include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <ranges>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -349,6 +348,15 @@ void check_names(const Setting& setting, const Numbers& numbers, std::string_vie
   }
 }
 
+/// As std::views::keys, which clang 14 does not compile with GCC 12's library.
+template <class Value>
+std::vector<int> keys(const std::map<int, Value>& sizes) {
+  std::vector<int> numbers;
+  numbers.reserve(sizes.size());
+  for (const auto& [number, size] : sizes) numbers.push_back(number);
+  return numbers;
+}
+
 /// The setting that a spacing comes from.
 const Setting& entry_of(const EdgeSpacing& spacing) {
   return entry(spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both");
@@ -572,16 +580,16 @@ void check(const Settings& settings, const CadModel& model) {
                                  : model.vertex_count());
   };
   check_all(entry("faces"), settings.mesh.faces, "Face");
-  check_all(entry("sizes"), std::views::keys(sizing.face_sizes), "Face");
-  check_all(entry("sizes"), std::views::keys(sizing.edge_sizes), "Edge");
-  check_all(entry("sizes"), std::views::keys(sizing.vertex_sizes), "Vertex");
+  check_all(entry("sizes"), keys(sizing.face_sizes), "Face");
+  check_all(entry("sizes"), keys(sizing.edge_sizes), "Edge");
+  check_all(entry("sizes"), keys(sizing.vertex_sizes), "Vertex");
   check_all(entry("keep"), sizing.kept_faces, "Face");
   check_all(entry("keep"), sizing.kept_edges, "Edge");
   for (const MatchedPair& pair : sizing.matches)
     check_all(entry("match"), std::array{pair.first, pair.second}, pair.dimension == 2 ? "Face" : "Edge");
-  check_all(entry("layers"), std::views::keys(sizing.layers.faces), "Face");
-  check_all(entry("layers"), std::views::keys(sizing.layers.edges), "Edge");
-  check_all(entry("layers"), std::views::keys(sizing.layers.vertices), "Vertex");
+  check_all(entry("layers"), keys(sizing.layers.faces), "Face");
+  check_all(entry("layers"), keys(sizing.layers.edges), "Edge");
+  check_all(entry("layers"), keys(sizing.layers.vertices), "Vertex");
   for (const auto& [edge, spacing] : sizing.spacings) {
     check_all(entry_of(spacing), std::array{edge}, "Edge");
     if (spacing.bias != 1 && spacing.bias_both != 1)

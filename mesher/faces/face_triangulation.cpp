@@ -36,7 +36,7 @@ class MarkedFace : public Base {
  public:
   using Base::Base;
   template <class Triangulation>
-  struct Rebind_TDS {
+  struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL looks for it
     using Other = MarkedFace<typename Base::template Rebind_TDS<Triangulation>::Other>;
   };
   int mark = -1;
