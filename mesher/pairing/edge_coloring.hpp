@@ -176,6 +176,7 @@ class EdgeColoring {
   /// The bits of a cell's places that change when side i gets a color that no side has; none for `blank` or
   /// the side -1.
   static std::uint32_t place_of(int color, int i) {
+    // Colors are 0 to 3. NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult)
     return static_cast<std::uint32_t>(none ^ i) << 2 * color & 0b111111;
   }
 
