@@ -92,17 +92,16 @@ std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_
   return parts;
 }
 
-/// Puts the members of a set into a group. \param put takes a number and a group; returns false if there is
-/// no such element or node.
-template <class Put>
+/// Puts the members of a set into a group.
 void assign_set(MeshBuilder& builder, const std::string& file, const Sets& sets,
-                const std::string& upper_name, const char* what, Put&& put) {
+                const std::string& upper_name, const char* what,
+                bool (MeshBuilder::*put)(std::int64_t, int)) {
   const std::string& name = sets.at(upper_name).name;
   const int group = builder.group(name, 0);
   for (const FileSet* part : parts_of(sets, upper_name))
     for (const FileSet::Range& range : part->ranges)
       for (std::int64_t member = range.first; member <= range.last; member += range.step) {
-        if (!put(member, group))
+        if (!(builder.*put)(member, group))
           throw failure(file, fmt::format("{}: the set {} holds {} {}, which the file does not define", file,
                                           name, what, member));
         if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
@@ -126,13 +125,11 @@ struct FileSets {
   void assign(MeshBuilder& builder, const std::string& file) const {
     for (const auto& [name, set] : of_elements)
       if (!is_made_anew(name))
-        assign_set(builder, file, of_elements, name, "element",
-                   [&](std::int64_t member, int group) { return builder.put_element(member, group); });
+        assign_set(builder, file, of_elements, name, "element", &MeshBuilder::put_element);
     // Our files repeat a set of elements as the set of their nodes under the same name.
     for (const auto& [name, set] : of_nodes)
       if (!is_made_anew(name) && of_elements.count(name) == 0)
-        assign_set(builder, file, of_nodes, name, "node",
-                   [&](std::int64_t member, int group) { return builder.put_node(member, group); });
+        assign_set(builder, file, of_nodes, name, "node", &MeshBuilder::put_node);
   }
 };
 
