@@ -47,7 +47,7 @@ void check_files(const SizesArguments& arguments) {
                                         {"--write-size-field", arguments.write_size_field, ".vdb"}})});
 }
 
-json sources_of(const SizeMap& map) {
+json summary_of(const SizeMap& map) {
   json sources = json::array();
   for (const SizeMap::Source& source : map.sources)
     sources.push_back({{"name", source.name},
@@ -55,11 +55,7 @@ json sources_of(const SizeMap& map) {
                        {"quads", source.quads},
                        {"size_min", source.least},
                        {"size_max", source.largest}});
-  return sources;
-}
-
-json summary_of(const SizeMap& map) {
-  return {{"quads", map.quads}, {"sources", sources_of(map)}, {"missing", map.missing}};
+  return {{"quads", map.quads}, {"sources", sources}, {"missing", map.missing}};
 }
 
 /// The bytes of numbers, in base64.

@@ -166,12 +166,12 @@ class InpReader {
       begin_elements(text);
       set_ = set_named(sets_.of_elements, line, text, "ELSET");
     } else if (keyword == "*ELSET" || keyword == "*NSET") {
-      set_ = keyword == "*ELSET" ? set_named(sets_.of_elements, line, text, "ELSET")
-                                 : set_named(sets_.of_nodes, line, text, "NSET");
+      Sets& sets = keyword == "*ELSET" ? sets_.of_elements : sets_.of_nodes;
+      set_ = set_named(sets, line, text, std::string(keyword.substr(1)));
       generated_ = text.find(",GENERATE") != std::string::npos;
       if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
-      throw cursor_line("*INCLUDE is not supported: put the mesh into one file");
+      throw cursor_.error_before("*INCLUDE is not supported: put the mesh into one file");
     }
   }
 
@@ -188,9 +188,10 @@ class InpReader {
     else if (is_one_of({"T3D3", "T2D3", "B32", "B32R", "B22"}))
       set_shape(ElementShape::line, 3);
     else if (type.substr(0, 2) == "C3" || type.substr(0, 2) == "DC")
-      throw cursor_line(fmt::format("elements of type {} are volumes: only surface meshes are read", type));
+      throw cursor_.error_before(
+          fmt::format("elements of type {} are volumes: only surface meshes are read", type));
     else
-      throw cursor_line(
+      throw cursor_.error_before(
           fmt::format("elements of type {} are not read", type.empty() ? "(none given)" : type));
     block_ = Block::elements;
   }
@@ -220,7 +221,7 @@ class InpReader {
   T number(std::string_view text, const char* what) const {
     if (const std::optional<T> value = parsed<T>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    throw cursor_line(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
+    throw cursor_.error_before(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
   }
 
   void read_node(std::string_view line) {
@@ -259,7 +260,8 @@ class InpReader {
       if (set_ != nullptr) add_to_set(pending_.number);
       read_numbers_ = 0;
       if (line.find_first_not_of(" \t,") != std::string_view::npos)
-        throw cursor_line(fmt::format("element {} has more than {} nodes", pending_.number, file_nodes_));
+        throw cursor_.error_before(
+            fmt::format("element {} has more than {} nodes", pending_.number, file_nodes_));
       return;
     }
   }
@@ -276,7 +278,7 @@ class InpReader {
       const auto last = number<std::int64_t>(field(line), "the last number of the range");
       const std::string_view step_text = field(line);
       const auto step = step_text.empty() ? 1 : number<std::int64_t>(step_text, "the step of the range");
-      if (step < 1) throw cursor_line("the step of the range must be positive");
+      if (step < 1) throw cursor_.error_before("the step of the range must be positive");
       set_->ranges.push_back({first, last, step});
       return;
     }
@@ -289,9 +291,6 @@ class InpReader {
         set_->sets.push_back(upper_trimmed(text));
     }
   }
-
-  /// An error in the line that was read last.
-  Error cursor_line(const std::string& sentence) const { return cursor_.error_before(sentence); }
 
   TextCursor cursor_;
   MeshBuilder builder_;
