@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include "geometry/base/atomic_file.hpp"
@@ -91,9 +92,12 @@ std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const Si
   return {{"IN", input}, {"--size-field", sizing.size_field}, {"--size-points", sizing.size_points}};
 }
 
-void add(std::vector<NamedFile>& files, const std::string& argument,
-         const std::vector<std::filesystem::path>& paths) {
-  for (const std::filesystem::path& path : paths) files.push_back({argument, path});
+std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
+                                    std::vector<NamedFile> others) {
+  for (const std::filesystem::path& path : paths) others.push_back({"-o", path});
+  // Those of -o are looked at first.
+  std::rotate(others.begin(), others.end() - std::ssize(paths), others.end());
+  return others;
 }
 
 void require_usable(const CommandFiles& files) {
@@ -105,6 +109,17 @@ void require_usable(const CommandFiles& files) {
   all.insert(all.end(), files.outputs.begin(), files.outputs.end());
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) require_different(all[k], all[i]);
+}
+
+CadModel read_model(const std::filesystem::path& file, const Settings& settings, std::string_view next,
+                    ExecutionContext& context, CancelOnSignal& cancel) {
+  const StageTimer timer(context, Stage::read);
+  report_crashes(file, "reading");
+  cancel.reading(file, settings.read_time_limit);
+  CadModel model = joined(settings, CadModel::read(file));
+  cancel.reading_is_done();
+  report_crashes(file, next);
+  return model;
 }
 
 void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,

@@ -63,9 +63,9 @@ struct CommandFiles {
 /// The CAD file and the files that the sizes come from.
 std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const SizingOptions& sizing);
 
-/// Adds files of one option that may be given more than once.
-void add(std::vector<NamedFile>& files, const std::string& argument,
-         const std::vector<std::filesystem::path>& paths);
+/// The files of -o, then the others.
+std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
+                                    std::vector<NamedFile> others);
 
 /// Throws Error: failure unless the inputs can be read, usage unless the outputs can be made (the folder
 /// exists and is writable), have the right endings, and all files are different: no output replaces an input
@@ -141,6 +141,11 @@ class CancelOnSignal {
   double time_limit_;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// Reads a CAD file within the settings' limit on reading and joins its parts as they say. \param next what
+/// is done with the file afterwards, as in report_crashes().
+CadModel read_model(const std::filesystem::path& file, const Settings& settings, std::string_view next,
+                    ExecutionContext& context, CancelOnSignal& cancel);
 
 /// For the message of an ended run: ", and nothing was written", or the files that were written before.
 std::string left_behind();

@@ -11,6 +11,7 @@
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
+#include "mesher/io/output_mesh.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -64,22 +65,20 @@ std::string describe(const CadModel& model, ExecutionContext& context) {
 std::string features(const CadModel& model, const MeshOptions& options, ExecutionContext& context) {
   const SmallFeatures found = small_features(model, options, context);
   using Kind = ShellMesh::SuppressedFeature::Kind;
-  const auto name = [](Kind kind, int number) {
-    return fmt::format("{}{}", kind == Kind::edge ? "Edge" : "Vertex", number);
-  };
   std::string text;
   for (const auto& feature : found.suppressed_features)
-    text += fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
-                        name(feature.kind, feature.number), name(feature.to_kind, feature.to),
-                        number_text(feature.distance));
+    text +=
+        fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
+                    entity_name(feature.kind == Kind::edge, feature.number),
+                    entity_name(feature.to_kind == Kind::edge, feature.to), number_text(feature.distance));
   for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "suppressed", face);
   for (const auto& hole : found.holes)
     text +=
         fmt::format("{:<12} {} of diameter {} in Face{} at {}\n", "suppressed", hole.boss ? "boss" : "hole",
                     number_text(hole.diameter), hole.in.front(), place_text(hole.center));
   for (const auto& feature : found.kept)
-    text += fmt::format("{:<12} {}{}: {}\n", "kept", feature.dimension == 2 ? "Face" : "Edge", feature.number,
-                        feature.why);
+    text +=
+        fmt::format("{:<12} {}: {}\n", "kept", entity_name(feature.dimension, feature.number), feature.why);
   return text.empty() ? fmt::format("{:<12} nothing is too small for this size\n", "features") : text;
 }
 
@@ -100,17 +99,10 @@ void add_info_command(CLI::App& app) {
       ->needs("--size");
   command->callback([input, limits, with_features] {
     require_readable(*input);
-    report_crashes(*input, "reading");
     ExecutionContext context;
     CancelOnSignal cancel(context, limits->settings.time_limit);
-    cancel.reading(*input, limits->settings.read_time_limit);
-    const CadModel model = joined(limits->settings, CadModel::read(*input));
-    cancel.reading_is_done();
-    report_crashes(*input, "measuring");
-    if (*with_features)
-      print(features(model, limits->settings.mesh, context));
-    else
-      print(describe(model, context));
+    const CadModel model = read_model(*input, limits->settings, "measuring", context, cancel);
+    print(*with_features ? features(model, limits->settings.mesh, context) : describe(model, context));
   });
 }
 

@@ -18,6 +18,7 @@
 #include "mesher/command/setting_options.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/midsurface_writer.hpp"
+#include "mesher/io/output_mesh.hpp"
 #include "mesher/io/report.hpp"
 #include "mesher/mesh/coincidences.hpp"
 #include "mesher/mesh/skins.hpp"
@@ -39,18 +40,12 @@ struct MeshArguments : GivenSettings {
 
 void check_files(const MeshArguments& arguments) {
   check_formats(arguments, arguments.outputs);
-  CommandFiles files{model_inputs(arguments.input, arguments.settings.mesh.sizing), {}};
-  files.inputs.push_back({"--limits", arguments.limits.file()});
-  add(files.outputs, "-o", arguments.outputs);
-  files.outputs.insert(files.outputs.end(), {{"--report", arguments.report},
-                                             {"--picture", arguments.picture, ".png"},
-                                             {"--write-size-field", arguments.write_size_field, ".vdb"}});
-  require_usable(files);
-}
-
-CadModel read_model(const MeshArguments& arguments, ExecutionContext& context) {
-  const StageTimer timer(context, Stage::read);
-  return joined(arguments.settings, CadModel::read(arguments.input));
+  std::vector<NamedFile> inputs = model_inputs(arguments.input, arguments.settings.mesh.sizing);
+  inputs.push_back({"--limits", arguments.limits.file()});
+  require_usable({inputs, with_outputs(arguments.outputs,
+                                       {{"--report", arguments.report},
+                                        {"--picture", arguments.picture, ".png"},
+                                        {"--write-size-field", arguments.write_size_field, ".vdb"}})});
 }
 
 /// Draws a middle surface that was refused, as far as it can be made and meshed, with the edges marked that
@@ -150,9 +145,9 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
   });
 }
 
-nlohmann::json names(const char* kind, const std::vector<int>& numbers) {
+nlohmann::json names(int dimension, const std::vector<int>& numbers) {
   nlohmann::json result = nlohmann::json::array();
-  for (const int number : numbers) result.push_back(fmt::format("{}{}", kind, number));
+  for (const int number : numbers) result.push_back(entity_name(dimension, number));
   return result;
 }
 
@@ -169,14 +164,14 @@ std::set<std::string_view> tried_settings(const Settings& settings) {
 nlohmann::json coincident_to_json(const Measured& measured, const std::set<std::string_view>& tried) {
   const Coincidences& found = measured.coincidences;
   nlohmann::json touching = nlohmann::json::array();
-  for (const auto& [face, other] : measured.contacts.faces) touching.push_back(names("Face", {face, other}));
+  for (const auto& [face, other] : measured.contacts.faces) touching.push_back(names(2, {face, other}));
   const std::string_view setting =
       measured.contacts.faces.empty() ? found.remedy() : measured.contacts.remedy();
   const std::string remedy = tried.count(setting) > 0 ? "" : option_of(setting);
   return {{"nodes", found.nodes},
           {"quads", found.quads},
-          {"free_edges", names("Edge", found.free_edges)},
-          {"faces", names("Face", found.faces)},
+          {"free_edges", names(1, found.free_edges)},
+          {"faces", names(2, found.faces)},
           {"touching_faces", touching},
           {"remedy", remedy.empty() ? nlohmann::json() : nlohmann::json(remedy)}};
 }
@@ -184,13 +179,12 @@ nlohmann::json coincident_to_json(const Measured& measured, const std::set<std::
 /// What each face, edge and vertex of the file became.
 nlohmann::json imprinted_to_json(const CadModel& model) {
   nlohmann::json result = nlohmann::json::object();
-  const auto add = [&](const char* kind, const std::vector<std::vector<int>>& pieces) {
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      result[fmt::format("{}{}", kind, i + 1)] = names(kind, pieces[i]);
-  };
-  add("Face", model.pieces());
-  add("Edge", model.edge_pieces());
-  add("Vertex", model.vertex_pieces());
+  int dimension = 2;
+  for (const auto* pieces : {&model.pieces(), &model.edge_pieces(), &model.vertex_pieces()}) {
+    for (std::size_t i = 0; i < pieces->size(); ++i)
+      result[entity_name(dimension, static_cast<int>(i) + 1)] = names(dimension, (*pieces)[i]);
+    --dimension;
+  }
   return result;
 }
 
@@ -211,9 +205,9 @@ void tell_poor_quads(const ShellMesh& mesh) {
   }
   const auto& most = mesh.poor_quads.front();
   say("note: {} quads are outside the usual limits (warp is not counted) or have sides under half the least "
-      "size, {} of them forced by edges, corners and widths of the part; most of all at {}{} ({}): {}; "
+      "size, {} of them forced by edges, corners and widths of the part; most of all at {} ({}): {}; "
       "--report lists all",
-      quads, forced, most.dimension == 2 ? "Face" : "Edge", most.number, most.quads, most.why);
+      quads, forced, entity_name(most.dimension, most.number), most.quads, most.why);
 }
 
 /// Writes the report, the warnings to stderr and the tables to stdout, if requested.
@@ -236,7 +230,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
                                         arguments.settings.write.scale);
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
-    if (meshed.middle) report["skins"] = {{"turned_over", names("Face", measured.bad_skins)}};
+    if (meshed.middle) report["skins"] = {{"turned_over", names(2, measured.bad_skins)}};
     if (measured.volumes)
       report["volume"] = {{"cad", measured.volumes->cad}, {"mesh", measured.volumes->mesh}};
     report["coincident"] = coincident_to_json(measured, tried);
@@ -268,14 +262,10 @@ void run(const MeshArguments& arguments) {
                             Stage::slide, Stage::assemble, Stage::write};
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
   context.expect(stages);
-  report_crashes(arguments.input, "reading");
   CancelOnSignal cancel(context, settings.time_limit, settings.mesh.partial);
   if (arguments.end_with_input) end_with_input();
   arguments.limits.check();  // may wait, if the file is a pipe
-  cancel.reading(arguments.input, settings.read_time_limit);
-  const CadModel source = read_model(arguments, context);
-  cancel.reading_is_done();
-  report_crashes(arguments.input, "meshing");
+  const CadModel source = read_model(arguments.input, settings, "meshing", context, cancel);
   const std::optional<MidSurface> middle = middle_of(source, arguments, context);
   const CadModel& model = middle ? middle->model : source;
   context.check();

@@ -24,19 +24,14 @@ void run(const Arguments& arguments) {
       throw usage_error(
           "-o", fmt::format("{}: a middle surface is written as .brep, .step or .json", output.string()));
   }
-  CommandFiles files{{{"IN", arguments.input}}, {}};
-  add(files.outputs, "-o", arguments.outputs);
-  require_usable(files);
+  require_usable({{{"IN", arguments.input}}, with_outputs(arguments.outputs, {})});
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(1, display.reporter());
-  report_crashes(arguments.input, "reading");
   context.expect({Stage::read, Stage::midsurface});
   CancelOnSignal cancel(context, arguments.settings.time_limit);
   if (arguments.end_with_input) end_with_input();
-  cancel.reading(arguments.input, arguments.settings.read_time_limit);
-  const CadModel model = CadModel::read(arguments.input);
-  cancel.reading_is_done();
-  report_crashes(arguments.input, "finding the middle surface of");
+  const CadModel model =
+      read_model(arguments.input, arguments.settings, "finding the middle surface of", context, cancel);
   const MidSurface middle = midsurface(model, arguments.options, context);
   context.check();
   for (const std::filesystem::path& output : arguments.outputs) {

@@ -27,13 +27,9 @@ struct RecombineArguments {
   std::optional<double> merge, feature_angle;
 };
 
-void check(const RecombineArguments& arguments) {
+void run(const RecombineArguments& arguments) {
   check_format(arguments.output, 4);
   require_usable({{{"TRI", arguments.input}}, {{"-o", arguments.output}, {"--report", arguments.report}}});
-}
-
-void run(const RecombineArguments& arguments) {
-  check(arguments);
   const std::string name = arguments.input.string();
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(arguments.options.settings.threads, display.reporter());

@@ -30,11 +30,9 @@ struct RemeshArguments : GivenSettings {
 
 void check_files(const RemeshArguments& arguments) {
   check_formats(arguments, arguments.outputs);
-  CommandFiles files{{{"SURFACE", arguments.input}, {"--limits", arguments.limits.file()}}, {}};
-  add(files.outputs, "-o", arguments.outputs);
-  files.outputs.insert(files.outputs.end(),
-                       {{"--report", arguments.report}, {"--picture", arguments.picture, ".png"}});
-  require_usable(files);
+  require_usable({{{"SURFACE", arguments.input}, {"--limits", arguments.limits.file()}},
+                  with_outputs(arguments.outputs,
+                               {{"--report", arguments.report}, {"--picture", arguments.picture, ".png"}})});
 }
 
 nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {

@@ -40,15 +40,14 @@ void check_files(const SizesArguments& arguments) {
       throw usage_error("-o",
                         fmt::format("-o: the file name must end in .vtu or .json, not {}", output.string()));
   }
-  CommandFiles files{model_inputs(arguments.input, arguments.settings.mesh.sizing), {}};
-  add(files.outputs, "-o", arguments.outputs);
-  files.outputs.insert(files.outputs.end(), {{"--report", arguments.report},
-                                             {"--picture", arguments.picture, ".png"},
-                                             {"--write-size-field", arguments.write_size_field, ".vdb"}});
-  require_usable(files);
+  require_usable(
+      {model_inputs(arguments.input, arguments.settings.mesh.sizing),
+       with_outputs(arguments.outputs, {{"--report", arguments.report},
+                                        {"--picture", arguments.picture, ".png"},
+                                        {"--write-size-field", arguments.write_size_field, ".vdb"}})});
 }
 
-json sources_of(const SizeMap& map) {
+json summary_of(const SizeMap& map) {
   json sources = json::array();
   for (const SizeMap::Source& source : map.sources)
     sources.push_back({{"name", source.name},
@@ -56,11 +55,7 @@ json sources_of(const SizeMap& map) {
                        {"quads", source.quads},
                        {"size_min", source.least},
                        {"size_max", source.largest}});
-  return sources;
-}
-
-json summary_of(const SizeMap& map) {
-  return {{"quads", map.quads}, {"sources", sources_of(map)}, {"missing", map.missing}};
+  return {{"quads", map.quads}, {"sources", sources}, {"missing", map.missing}};
 }
 
 /// The bytes of numbers, in base64.
@@ -161,13 +156,9 @@ void run(const SizesArguments& arguments) {
   ProgressDisplay display(arguments.quiet);
   ExecutionContext context(settings.threads, display.reporter());
   context.expect({Stage::read, Stage::size, Stage::write});
-  report_crashes(arguments.input, "reading");
   CancelOnSignal cancel(context, settings.time_limit);
   if (arguments.end_with_input) end_with_input();
-  cancel.reading(arguments.input, settings.read_time_limit);
-  const CadModel model = joined(settings, CadModel::read(arguments.input));
-  cancel.reading_is_done();
-  report_crashes(arguments.input, "measuring");
+  const CadModel model = read_model(arguments.input, settings, "measuring", context, cancel);
   context.check();
   settings = with_pieces(settings, model);
   check(settings, model);

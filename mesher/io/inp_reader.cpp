@@ -92,17 +92,16 @@ std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_
   return parts;
 }
 
-/// Puts the members of a set into a group. \param put takes a number and a group; returns false if there is
-/// no such element or node.
-template <class Put>
+/// Puts the members of a set into a group.
 void assign_set(MeshBuilder& builder, const std::string& file, const Sets& sets,
-                const std::string& upper_name, const char* what, Put&& put) {
+                const std::string& upper_name, const char* what,
+                bool (MeshBuilder::*put)(std::int64_t, int)) {
   const std::string& name = sets.at(upper_name).name;
   const int group = builder.group(name, 0);
   for (const FileSet* part : parts_of(sets, upper_name))
     for (const FileSet::Range& range : part->ranges)
       for (std::int64_t member = range.first; member <= range.last; member += range.step) {
-        if (!put(member, group))
+        if (!(builder.*put)(member, group))
           throw failure(file, fmt::format("{}: the set {} holds {} {}, which the file does not define", file,
                                           name, what, member));
         if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
@@ -126,13 +125,11 @@ struct FileSets {
   void assign(MeshBuilder& builder, const std::string& file) const {
     for (const auto& [name, set] : of_elements)
       if (!is_made_anew(name))
-        assign_set(builder, file, of_elements, name, "element",
-                   [&](std::int64_t member, int group) { return builder.put_element(member, group); });
+        assign_set(builder, file, of_elements, name, "element", &MeshBuilder::put_element);
     // Our files repeat a set of elements as the set of their nodes under the same name.
     for (const auto& [name, set] : of_nodes)
       if (!is_made_anew(name) && of_elements.count(name) == 0)
-        assign_set(builder, file, of_nodes, name, "node",
-                   [&](std::int64_t member, int group) { return builder.put_node(member, group); });
+        assign_set(builder, file, of_nodes, name, "node", &MeshBuilder::put_node);
   }
 };
 
@@ -169,12 +166,12 @@ class InpReader {
       begin_elements(text);
       set_ = set_named(sets_.of_elements, line, text, "ELSET");
     } else if (keyword == "*ELSET" || keyword == "*NSET") {
-      set_ = keyword == "*ELSET" ? set_named(sets_.of_elements, line, text, "ELSET")
-                                 : set_named(sets_.of_nodes, line, text, "NSET");
+      Sets& sets = keyword == "*ELSET" ? sets_.of_elements : sets_.of_nodes;
+      set_ = set_named(sets, line, text, std::string(keyword.substr(1)));
       generated_ = text.find(",GENERATE") != std::string::npos;
       if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
-      throw cursor_line("*INCLUDE is not supported: put the mesh into one file");
+      throw cursor_.error_before("*INCLUDE is not supported: put the mesh into one file");
     }
   }
 
@@ -191,9 +188,10 @@ class InpReader {
     else if (is_one_of({"T3D3", "T2D3", "B32", "B32R", "B22"}))
       set_shape(ElementShape::line, 3);
     else if (type.substr(0, 2) == "C3" || type.substr(0, 2) == "DC")
-      throw cursor_line(fmt::format("elements of type {} are volumes: only surface meshes are read", type));
+      throw cursor_.error_before(
+          fmt::format("elements of type {} are volumes: only surface meshes are read", type));
     else
-      throw cursor_line(
+      throw cursor_.error_before(
           fmt::format("elements of type {} are not read", type.empty() ? "(none given)" : type));
     block_ = Block::elements;
   }
@@ -223,7 +221,7 @@ class InpReader {
   T number(std::string_view text, const char* what) const {
     if (const std::optional<T> value = parsed<T>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    throw cursor_line(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
+    throw cursor_.error_before(fmt::format("expected {}, found \"{}\"", what, text.substr(0, 30)));
   }
 
   void read_node(std::string_view line) {
@@ -262,7 +260,8 @@ class InpReader {
       if (set_ != nullptr) add_to_set(pending_.number);
       read_numbers_ = 0;
       if (line.find_first_not_of(" \t,") != std::string_view::npos)
-        throw cursor_line(fmt::format("element {} has more than {} nodes", pending_.number, file_nodes_));
+        throw cursor_.error_before(
+            fmt::format("element {} has more than {} nodes", pending_.number, file_nodes_));
       return;
     }
   }
@@ -279,7 +278,7 @@ class InpReader {
       const auto last = number<std::int64_t>(field(line), "the last number of the range");
       const std::string_view step_text = field(line);
       const auto step = step_text.empty() ? 1 : number<std::int64_t>(step_text, "the step of the range");
-      if (step < 1) throw cursor_line("the step of the range must be positive");
+      if (step < 1) throw cursor_.error_before("the step of the range must be positive");
       set_->ranges.push_back({first, last, step});
       return;
     }
@@ -292,9 +291,6 @@ class InpReader {
         set_->sets.push_back(upper_trimmed(text));
     }
   }
-
-  /// An error in the line that was read last.
-  Error cursor_line(const std::string& sentence) const { return cursor_.error_before(sentence); }
 
   TextCursor cursor_;
   MeshBuilder builder_;

@@ -24,16 +24,14 @@ namespace {
 
 constexpr std::array<std::string_view, 5> endings{".brep", ".brp", ".step", ".stp", ".json"};
 
-std::string brep_text(const TopoDS_Shape& shape) {
+/// The shape as STEP or as .brep. \param name of the file, for messages
+std::string shape_text(const TopoDS_Shape& shape, bool step, const std::string& name) {
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // a stream that finds no memory would be silent
-  BRepTools::Write(shape, text);
-  return text.str();
-}
-
-std::string step_text(const TopoDS_Shape& shape, const std::string& name) {
-  std::ostringstream text;
-  text.exceptions(std::ios::badbit);  // a stream that finds no memory would be silent
+  if (!step) {
+    BRepTools::Write(shape, text);
+    return text.str();
+  }
   const std::string problem = Module("quadrille_step").function<ExchangeWriteFunction>("_write")(shape, text);
   if (!problem.empty()) throw failure(name, fmt::format("{}: cannot be written as STEP: {}", name, problem));
   return text.str();
@@ -81,16 +79,13 @@ bool is_midsurface_format(const std::filesystem::path& path) {
 
 void write_midsurface(const MidSurface& middle, const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  const TopoDS_Shape& shape = middle.model.shape().shape;
   if (!is_midsurface_format(path))
     throw usage_error(path.string(),
                       fmt::format("{}: a middle surface is written as .brep, .step or .json", path.string()));
   if (ending == ".json")
     write_file(path, midsurface_json(middle).dump(2) + "\n");
-  else if (ending == ".step" || ending == ".stp")
-    write_file(path, step_text(shape, path.string()));
   else
-    write_file(path, brep_text(shape));
+    write_file(path, shape_text(middle.model.shape().shape, ending.starts_with(".st"), path.string()));
 }
 
 }  // namespace quadrille

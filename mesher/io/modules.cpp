@@ -21,9 +21,10 @@ void require_library(Library library, std::string_view ending) {
                                                      ending, library == Library::med ? "libmed" : "VTK"));
 }
 
-const Module& module_of(Library library, std::string_view ending) {
-  require_library(library, ending);
+const Module& module_of(Library library) {
   constexpr const char* names[] = {"", "quadrille_vtk", "quadrille_picture", "quadrille_med"};
+  constexpr const char* endings[] = {"", ".vtu", ".png", ".med"};
+  require_library(library, endings[static_cast<int>(library)]);
   static std::mutex opening;
   static std::map<Library, Module> open;
   const std::lock_guard lock(opening);
@@ -32,7 +33,7 @@ const Module& module_of(Library library, std::string_view ending) {
 
 void open_med_module() noexcept {
   try {
-    module_of(Library::med, ".med");
+    module_of(Library::med);
   } catch (const std::exception&) {
     return;
   }
@@ -40,14 +41,14 @@ void open_med_module() noexcept {
 
 std::string med_file(const OutputMesh& mesh, const std::string& name, const std::string& description,
                      const std::string& unit) {
-  module_of(Library::med, ".med");  // opened here, not in the child
+  module_of(Library::med);  // opened here, not in the child
   IsolatedWork options;
   options.subject = name;
   options.crashed = name + ".med: libmed crashed while writing the mesh, probably out of memory";
   // libmed prints lines of its own when it fails; the output of a child process is not shown.
   constexpr ModuleFunction<std::string, const OutputMesh&, const std::string&, const std::string&,
                            const std::string&>
-      write{Library::med, "_file", ".med"};
+      write{Library::med, "_file"};
   return run_isolated(options, [&](std::ostream& out) { out << write(mesh, name, description, unit); });
 }
 

@@ -43,7 +43,7 @@ struct ImportedMesh {
 
 /// The module of a library, opened by the first call. Throws as require_library(), and Error (failure) if it
 /// cannot be opened.
-const Module& module_of(Library library, std::string_view ending);
+const Module& module_of(Library library);
 
 /// A function that a module exports as a C symbol. There it has one more argument, which receives the result.
 /// It returns an empty string, or a sentence that says what went wrong; no exception leaves a module.
@@ -51,11 +51,10 @@ template <class Result, class... Arguments>
 struct ModuleFunction {
   Library library;
   const char* name;
-  std::string_view ending;  ///< of the files that need the library
 
   /// Opens the module. Throws Error (failure) with the sentence, which does not name the file.
   Result operator()(Arguments... arguments) const {
-    const auto work = module_of(library, ending).template function<std::string(Arguments..., Result&)>(name);
+    const auto work = module_of(library).template function<std::string(Arguments..., Result&)>(name);
     Result result;
     const std::string problem = work(arguments..., result);
     if (!problem.empty()) throw failure("", problem);
@@ -66,23 +65,23 @@ struct ModuleFunction {
 /// The bytes of a .vtu file: shell elements, lines on CAD edges, points on CAD vertices, with their CAD
 /// numbers. The second argument has (quads) q of each quad.
 inline constexpr ModuleFunction<std::string, const OutputMesh&, const std::vector<double>&> vtu_file{
-    Library::vtk, "_file", ".vtu"};
+    Library::vtk, "_file"};
 
 /// The bytes of a PNG of the mesh with (quads) q of each quad; width and height.
 inline constexpr ModuleFunction<std::string, const ShellMesh&, const std::vector<double>&, int, int>
-    vtk_picture{Library::pictures, "_draw", ".png"};
+    vtk_picture{Library::pictures, "_draw"};
 
 /// The bytes of a .vtu file and of a PNG of the sizes; width and height.
-inline constexpr ModuleFunction<std::string, const SizeMap&> vtu_sizes{Library::vtk, "_sizes", ".vtu"};
+inline constexpr ModuleFunction<std::string, const SizeMap&> vtu_sizes{Library::vtk, "_sizes"};
 inline constexpr ModuleFunction<std::string, const SizeMap&, int, int> size_picture{Library::pictures,
-                                                                                    "_sizes", ".png"};
+                                                                                    "_sizes"};
 
 /// The mesh in a file, given its ending: .stl, .obj, .ply, .vtk, .vtu or .vtp.
-inline constexpr ModuleFunction<ImportedMesh, const std::string&, const std::string&> vtk_mesh{
-    Library::vtk, "_read", ".vtu"};
+inline constexpr ModuleFunction<ImportedMesh, const std::string&, const std::string&> vtk_mesh{Library::vtk,
+                                                                                               "_read"};
 
 /// A solver's result from a .vtu file.
-inline constexpr ModuleFunction<SolverResult, const std::string&> vtk_result{Library::vtk, "_result", ".vtu"};
+inline constexpr ModuleFunction<SolverResult, const std::string&> vtk_result{Library::vtk, "_result"};
 
 /// Opens the module for .med files ahead of time. If it cannot be opened, med_file() reports why.
 void open_med_module() noexcept;

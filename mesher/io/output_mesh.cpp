@@ -31,15 +31,17 @@ std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   return groups;
 }
 
-/// FreeCAD's names of the kinds of entities, by dimension.
-const std::array<std::string, 3> kind_names{"Vertex", "Edge", "Face"};
-
 void sort_unique(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 }  // namespace
+
+std::string entity_name(int dimension, int number) {
+  constexpr const char* kinds[] = {"Vertex", "Edge", "Face"};
+  return kinds[dimension] + std::to_string(number);
+}
 
 OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad_nodes)
     : mesh_(mesh), groups_(groups) {
@@ -62,7 +64,7 @@ void OutputMesh::name_groups(int dimension) {
       if (dimension == 0 && node.added) added.insert(node.vertex);
     for (const CadGroup& entity : entities(dimension))
       if (entity.number > 0 && !added.contains(entity.number))
-        named.push_back({kind_names[dimension] + std::to_string(entity.number), true, 0, {entity.number}});
+        named.push_back({entity_name(dimension, entity.number), true, 0, {entity.number}});
     for (const ShellMesh::PlacedNode& node : mesh_.placed_nodes)
       if (dimension == 0 && node.vertex > 0)
         named.push_back({node.name, true, 0, {node.vertex}, added.erase(node.vertex) == 0});
@@ -98,8 +100,8 @@ std::vector<std::string> OutputMesh::set_names() const {
   std::vector<std::string> names;
   for (const int dimension : {2, 1, 0}) {
     for (const NamedGroup& group : named_[dimension]) {
-      const bool is_told = group.entities.size() == 1 &&
-                           group.name == kind_names[dimension] + std::to_string(group.entities[0]);
+      const bool is_told =
+          group.entities.size() == 1 && group.name == entity_name(dimension, group.entities[0]);
       if (!is_told && std::find(names.begin(), names.end(), group.name) == names.end())
         names.push_back(group.name);
     }

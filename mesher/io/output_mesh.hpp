@@ -11,6 +11,9 @@
 
 namespace quadrille {
 
+/// FreeCAD's name of a vertex (dimension 0), edge (1) or face (2): "Face3".
+std::string entity_name(int dimension, int number);
+
 /// The nodes of one element, as indices for OutputMesh::position(): corners, midside nodes, the middle node.
 struct ElementNodes {
   std::array<int, 9> nodes{};

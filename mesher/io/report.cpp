@@ -17,6 +17,7 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
 #include "mesher/io/io.hpp"
+#include "mesher/io/output_mesh.hpp"
 #include "mesher/mesh/joined_faces.hpp"
 #include "mesher/remesh/surface_locator.hpp"
 
@@ -36,11 +37,6 @@ json listed(const List& list, Item&& item) {
 
 json place_to_json(const Vector3& place) {
   return {place.x(), place.y(), place.z()};
-}
-
-/// "Face3"; dimension 1: "Edge3".
-std::string name_of_entity(int dimension, int number) {
-  return (dimension == 2 ? "Face" : "Edge") + std::to_string(number);
 }
 
 json quality_to_json(const QualitySummary& summary) {
@@ -163,8 +159,8 @@ json crossed_to_json(const ShellMesh& mesh) {
   if (mesh.crossed_edges.empty()) return json::array();
   const CrossedDistances distances(mesh);
   return listed(mesh.crossed_edges, [&](const ShellMesh::CrossedEdge& edge) {
-    return json{{"name", name_of_entity(1, edge.edge)},
-                {"faces", {name_of_entity(2, edge.faces[0]), name_of_entity(2, edge.faces[1])}},
+    return json{{"name", entity_name(1, edge.edge)},
+                {"faces", {entity_name(2, edge.faces[0]), entity_name(2, edge.faces[1])}},
                 {"distance", distances.of(edge)},
                 {"line", listed(edge.line, place_to_json)}};
   });
@@ -184,7 +180,7 @@ json placed_to_json(const ShellMesh& mesh) {
 json extra_groups_to_json(const ShellMesh& mesh) {
   return listed(mesh.extra_groups, [](const ShellMesh::Group& group) {
     return json{{"name", group.name}, {"entities", listed(group.entities, [&](int number) {
-                                         return name_of_entity(group.dimension, number);
+                                         return entity_name(group.dimension, number);
                                        })}};
   });
 }
@@ -198,8 +194,8 @@ json matches_to_json(const ShellMesh& mesh) {
       moved.update({{"center", place_to_json(motion.center)},
                     {"axis", place_to_json(motion.axis)},
                     {"degrees", motion.angle * 180 / std::numbers::pi}});
-    return json{{"from", name_of_entity(match.dimension, match.entities[0])},
-                {"to", name_of_entity(match.dimension, match.entities[1])},
+    return json{{"from", entity_name(match.dimension, match.entities[0])},
+                {"to", entity_name(match.dimension, match.entities[1])},
                 {"motion", moved},
                 {"nodes", listed(match.nodes, [](const auto& pair) {
                    return json{pair[0] + 1, pair[1] + 1};
@@ -208,19 +204,17 @@ json matches_to_json(const ShellMesh& mesh) {
 }
 
 json suppressed_to_json(const ShellMesh& mesh) {
-  const auto name = [](ShellMesh::SuppressedFeature::Kind kind, int number) {
-    return (kind == ShellMesh::SuppressedFeature::Kind::edge ? "Edge" : "Vertex") + std::to_string(number);
-  };
-  return listed(mesh.suppressed_features, [&](const ShellMesh::SuppressedFeature& feature) {
-    return json{{"name", name(feature.kind, feature.number)},
-                {"to", name(feature.to_kind, feature.to)},
+  using Kind = ShellMesh::SuppressedFeature::Kind;
+  return listed(mesh.suppressed_features, [](const ShellMesh::SuppressedFeature& feature) {
+    return json{{"name", entity_name(feature.kind == Kind::edge, feature.number)},
+                {"to", entity_name(feature.to_kind == Kind::edge, feature.to)},
                 {"distance", feature.distance}};
   });
 }
 
 json filled_holes_to_json(const ShellMesh& mesh) {
   const auto names = [](const std::vector<int>& faces) {
-    return listed(faces, [](int face) { return name_of_entity(2, face); });
+    return listed(faces, [](int face) { return entity_name(2, face); });
   };
   return listed(mesh.filled_holes, [&](const ShellMesh::FilledHole& hole) {
     return json{{"kind", hole.boss ? "boss" : "hole"},
@@ -234,7 +228,7 @@ json filled_holes_to_json(const ShellMesh& mesh) {
 json poor_quads_to_json(const ShellMesh& mesh) {
   constexpr std::array<const char*, 4> names{"short edge", "sharp corner", "narrow", "none"};
   return listed(mesh.poor_quads, [&](const ShellMesh::PoorQuads& found) {
-    return json{{"name", name_of_entity(found.dimension, found.number)},
+    return json{{"name", entity_name(found.dimension, found.number)},
                 {"quads", found.quads},
                 {"shortest", found.shortest},
                 {"forced", found.is_forced()},
@@ -251,7 +245,7 @@ json elements_to_json(std::vector<int> indices) {
 
 json kept_to_json(const ShellMesh& mesh) {
   return listed(mesh.kept, [](const ShellMesh::Kept& feature) {
-    return json{{"name", name_of_entity(feature.dimension, feature.number)}, {"why", feature.why}};
+    return json{{"name", entity_name(feature.dimension, feature.number)}, {"why", feature.why}};
   });
 }
 

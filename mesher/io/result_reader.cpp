@@ -44,7 +44,6 @@ class FrdReader {
   Error bad(const std::string& what) const {
     return failure(cursor_.name(), fmt::format("{} {}", cursor_.name(), what));
   }
-  Error bad_line(const std::string& what) const { return cursor_.error_before(what); }
 
   bool next_line() {
     if (cursor_.at_end()) return false;
@@ -63,7 +62,7 @@ class FrdReader {
     while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
     if (const std::optional<Number> value = parsed<Number>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-    throw bad_line(fmt::format("'{}' is not a number", text));
+    throw cursor_.error_before(fmt::format("'{}' is not a number", text));
   }
 
   /// Column where values start in the lines of the block that the current line begins, from 0: 13 or 8.
@@ -82,23 +81,23 @@ class FrdReader {
 
   Vector3 vector(std::size_t start) const {
     Vector3 v(number<double>(start, 12), number<double>(start + 12, 12), number<double>(start + 24, 12));
-    if (!v.allFinite()) throw bad_line("a value is not finite");
+    if (!v.allFinite()) throw cursor_.error_before("a value is not finite");
     return v;
   }
 
   void read_nodes() {
     const std::size_t start = begin_block();
     while (next_of_block()) {
-      if (field(0, 3) != " -1") throw bad_line("a node was expected");
+      if (field(0, 3) != " -1") throw cursor_.error_before("a node was expected");
       if (!indices_.emplace(number<int>(3, start - 3), static_cast<int>(result_.points.size())).second)
-        throw bad_line(fmt::format("node {} occurs twice", number<int>(3, start - 3)));
+        throw cursor_.error_before(fmt::format("node {} occurs twice", number<int>(3, start - 3)));
       result_.points.push_back(vector(start));
     }
   }
 
   int index_of(int node) const {
     const auto it = indices_.find(node);
-    if (it == indices_.end()) throw bad_line(fmt::format("there is no node {}", node));
+    if (it == indices_.end()) throw cursor_.error_before(fmt::format("there is no node {}", node));
     return it->second;
   }
 
@@ -111,7 +110,7 @@ class FrdReader {
         for (std::size_t at = 3; at < line_.size(); at += width)
           result_.elements.back().nodes.push_back(index_of(number<int>(at, width)));
       } else {
-        throw bad_line("an element was expected");
+        throw cursor_.error_before("an element was expected");
       }
     }
   }

@@ -15,25 +15,6 @@ namespace {
 
 using KeyedSegment = std::pair<std::uint64_t, int>;
 
-std::vector<KeyedSegment> keyed_segments(const OutputMesh& mesh) {
-  std::vector<KeyedSegment> keyed;
-  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
-    const ElementNodes nodes = mesh.segment_nodes(segment);
-    keyed.emplace_back(side_key(nodes.nodes[0], nodes.nodes[1]), segment);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  return keyed;
-}
-
-/// By node: whether it is on a segment. Most sides end at a node that is not, so this is checked first.
-std::vector<char> nodes_of_segments(const OutputMesh& mesh) {
-  std::vector<char> has(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
-  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
-    for (const int node : mesh.segment_nodes(segment)) has[node] = 1;
-  }
-  return has;
-}
-
 /// For each edge, the vertices at the ends of its chain of segments: first positive, last negative.
 std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
   std::unordered_map<int, int> vertex_at;
@@ -66,8 +47,15 @@ std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
 }  // namespace
 
 std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
-  const std::vector<KeyedSegment> keyed = keyed_segments(mesh);
-  const std::vector<char> on_segment = nodes_of_segments(mesh);
+  std::vector<KeyedSegment> keyed;
+  // Most sides end at a node that is on no segment, so this is checked first.
+  std::vector<char> on_segment(mesh.nodes().empty() ? 0 : mesh.nodes().back() + 1, 0);
+  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
+    const ElementNodes nodes = mesh.segment_nodes(segment);
+    keyed.emplace_back(side_key(nodes.nodes[0], nodes.nodes[1]), segment);
+    for (const int node : nodes) on_segment[node] = 1;
+  }
+  std::sort(keyed.begin(), keyed.end());
   std::vector<SegmentSide> sides;
   for (int shell = 0; shell < mesh.shell_count(); ++shell) {
     const ElementNodes nodes = mesh.shell_nodes(shell);

@@ -78,9 +78,17 @@ int descriptor(const ElementNodes& element, bool line) {
   return element.count == 8 ? quad_parabolic : shell_quad;
 }
 
-/// Second-order elements list their nodes around the element: corner, midside, corner, ...
-void write_element_nodes(const OutputMesh& mesh, const ElementNodes& element, int corners, TextWriter& out) {
+/// The property number is the CAD number, for readers that use it. Second-order elements list their nodes
+/// around the element: corner, midside, corner, ...
+void write_element(const OutputMesh& mesh, int dimension, int member, TextWriter& out) {
+  const ElementNodes element = mesh.element_nodes(dimension, member);
+  const bool line = dimension == 1;
+  const int number = member + 1 + (line ? mesh.shell_count() : 0), cad = mesh.entity(dimension, member);
   Fields fields(out);
+  for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
+  fields.end();
+  if (line) out << "         0         1         1\n";
+  const int corners = line ? 2 : element.count == 3 ? 3 : 4;
   for (int i = 0; i < corners; ++i) {
     fields.add(mesh.number(element.nodes[i]));
     if (corners + i < element.count) fields.add(mesh.number(element.nodes[corners + i]));
@@ -88,24 +96,12 @@ void write_element_nodes(const OutputMesh& mesh, const ElementNodes& element, in
   fields.end();
 }
 
-/// The property number is the CAD number, for readers that use it.
-void write_element(const OutputMesh& mesh, int number, const ElementNodes& element, int cad, bool line,
-                   TextWriter& out) {
-  Fields fields(out);
-  for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
-  fields.end();
-  if (line) out << "         0         1         1\n";
-  write_element_nodes(mesh, element, line ? 2 : element.count == 3 ? 3 : 4, out);
-}
-
 void write_elements(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2412, out);
-  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    const int shell = static_cast<int>(i);
-    write_element(mesh, shell + 1, mesh.shell_nodes(shell), mesh.face(shell), false, to);
-  });
-  for (int i = 0; i < mesh.segment_count(); ++i)
-    write_element(mesh, mesh.shell_count() + i + 1, mesh.segment_nodes(i), mesh.edge(i), true, out);
+  for (const int dimension : {2, 1})
+    write_in_order(mesh.count(dimension), out, [&](std::size_t i, TextWriter& to) {
+      write_element(mesh, dimension, static_cast<int>(i), to);
+    });
   end_dataset(out);
 }
 
