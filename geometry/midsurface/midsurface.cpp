@@ -451,8 +451,7 @@ std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& sk
   if (middle.fillets.softer > 0)
     checked.warnings.push_back(fmt::format(
         "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: "
-        "walls "
-        "that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
+        "walls that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
         middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer));
   if (!middle.narrow.empty())
     checked.warnings.push_back(fmt::format(

@@ -93,11 +93,11 @@ std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const Si
 }
 
 std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
-                                    std::vector<NamedFile> others) {
-  for (const std::filesystem::path& path : paths) others.push_back({"-o", path});
-  // Those of -o are looked at first.
-  std::rotate(others.begin(), others.end() - std::ssize(paths), others.end());
-  return others;
+                                    const std::vector<NamedFile>& others) {
+  std::vector<NamedFile> files;
+  for (const std::filesystem::path& path : paths) files.push_back({"-o", path});
+  files.insert(files.end(), others.begin(), others.end());
+  return files;
 }
 
 void require_usable(const CommandFiles& files) {

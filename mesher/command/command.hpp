@@ -65,7 +65,7 @@ std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const Si
 
 /// The files of -o, then the others.
 std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
-                                    std::vector<NamedFile> others);
+                                    const std::vector<NamedFile>& others);
 
 /// Throws Error: failure unless the inputs can be read, usage unless the outputs can be made (the folder
 /// exists and is writable), have the right endings, and all files are different: no output replaces an input

@@ -67,10 +67,10 @@ std::string features(const CadModel& model, const MeshOptions& options, Executio
   using Kind = ShellMesh::SuppressedFeature::Kind;
   std::string text;
   for (const auto& feature : found.suppressed_features)
-    text +=
-        fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
-                    entity_name(feature.kind == Kind::edge, feature.number),
-                    entity_name(feature.to_kind == Kind::edge, feature.to), number_text(feature.distance));
+    text += fmt::format("{:<12} {} becomes {}, at most {} mm away\n", "suppressed",
+                        entity_name(feature.kind == Kind::edge ? 1 : 0, feature.number),
+                        entity_name(feature.to_kind == Kind::edge ? 1 : 0, feature.to),
+                        number_text(feature.distance));
   for (const int face : found.faces) text += fmt::format("{:<12} Face{}\n", "suppressed", face);
   for (const auto& hole : found.holes)
     text +=

@@ -179,12 +179,13 @@ nlohmann::json coincident_to_json(const Measured& measured, const std::set<std::
 /// What each face, edge and vertex of the file became.
 nlohmann::json imprinted_to_json(const CadModel& model) {
   nlohmann::json result = nlohmann::json::object();
-  int dimension = 2;
-  for (const auto* pieces : {&model.pieces(), &model.edge_pieces(), &model.vertex_pieces()}) {
-    for (std::size_t i = 0; i < pieces->size(); ++i)
-      result[entity_name(dimension, static_cast<int>(i) + 1)] = names(dimension, (*pieces)[i]);
-    --dimension;
-  }
+  const auto add = [&](int dimension, const std::vector<std::vector<int>>& pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      result[entity_name(dimension, static_cast<int>(i) + 1)] = names(dimension, pieces[i]);
+  };
+  add(2, model.pieces());
+  add(1, model.edge_pieces());
+  add(0, model.vertex_pieces());
   return result;
 }
 

@@ -486,9 +486,9 @@ void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
 
 }  // namespace
 
-SamplingPlan::SamplingPlan(const CadShape& shape)
+SamplingPlan::SamplingPlan(const CadShape& shape, EdgeFlags below)
     : factor(shape.edges.size(), 1),
-      below_size_min(shape.edges.size()),
+      below_size_min(std::move(below)),
       ignore_curvature(shape.edges.size()),
       subdivided(shape.faces.size()),
       tiny(find_tiny_features(shape, FaceFlags(shape.faces.size(), 1), EdgeFlags(shape.edges.size()), 0)) {}

@@ -73,8 +73,9 @@ struct EdgeStretch {
 /// How the sampling of edges departs from the sizing field: where faces failed, for tiny features, and where
 /// users divide edges.
 struct SamplingPlan {
-  explicit SamplingPlan(const CadShape& shape);  ///< by the sizing field alone
-  IdVector<EdgeId, int> factor;                  ///< multiplies the number of segments
+  /// By the sizing field alone. \param below see below_size_min; empty = none
+  explicit SamplingPlan(const CadShape& shape, EdgeFlags below = {});
+  IdVector<EdgeId, int> factor;  ///< multiplies the number of segments
   std::vector<EdgeStretch> finer;
   double shortest_segment = 0;  ///< that `finer` may ask for, model units; 0 = any
   EdgeFlags below_size_min;     ///< 1 = sizes given by name below SizeLimits::size_min may reach the edge

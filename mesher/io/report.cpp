@@ -206,8 +206,8 @@ json matches_to_json(const ShellMesh& mesh) {
 json suppressed_to_json(const ShellMesh& mesh) {
   using Kind = ShellMesh::SuppressedFeature::Kind;
   return listed(mesh.suppressed_features, [](const ShellMesh::SuppressedFeature& feature) {
-    return json{{"name", entity_name(feature.kind == Kind::edge, feature.number)},
-                {"to", entity_name(feature.to_kind == Kind::edge, feature.to)},
+    return json{{"name", entity_name(feature.kind == Kind::edge ? 1 : 0, feature.number)},
+                {"to", entity_name(feature.to_kind == Kind::edge ? 1 : 0, feature.to)},
                 {"distance", feature.distance}};
   });
 }

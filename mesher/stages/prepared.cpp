@@ -75,8 +75,8 @@ CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& optio
 Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
   const CadShape& shape = prepared.shape;
   const SizingOptions& sizing = prepared.options.sizing;
-  const EdgeFlags below = edges_below_size_min(prepared.model, sizing, prepared.limits);
-  Protection result{below, below, EdgeFlags(shape.edges.size(), prepared.options.keep_features ? 1 : 0),
+  Protection result{prepared.plan.below_size_min,
+                    EdgeFlags(shape.edges.size(), prepared.options.keep_features ? 1 : 0),
                     prepared.matches.vertices(shape)};
   for (const PlacedNode& node : prepared.placed.nodes) result.vertices.push_back(node.vertex);
   for (const EdgeId id : shape.edges.ids()) {
@@ -130,13 +130,12 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
                         : simple.model),
       shape(model.shape()),
       matches(find_matches(shape, options.sizing.matches, asked)),
+      plan(shape, edges_below_size_min(model, options.sizing, limits)),
       protection(protect(*this, how.uncrossed)),
-      suppressed(shape, asked, reach, protection.lengths, protection.vertices),
-      plan(shape) {
+      suppressed(shape, asked, reach, protection.lengths, protection.vertices) {
   constexpr double far_below = 0.02;
   plan.shortest_segment = far_below * limits.size_min;
   if (options.strategy == Strategy::subdivide) plan.subdivided.assign(shape.faces.size(), 1);
-  plan.below_size_min = protection.below_size_min;
   plan.matched = matches.edges;
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
   meshed = leave_out_tiny(suppressed, plan);

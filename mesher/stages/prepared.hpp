@@ -22,7 +22,6 @@ FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
 /// What users or matched pairs keep from being suppressed or crossed.
 struct Protection {
-  EdgeFlags below_size_min;        ///< see edges_below_size_min()
   EdgeFlags lengths;               ///< 1 = the edge must not become a point
   EdgeFlags own_nodes;             ///< 1 = the edge keeps nodes of its own: no quad crosses it
   std::vector<VertexId> vertices;  ///< they share their nodes with no other
@@ -55,9 +54,9 @@ struct Prepared {
   CadModel model;
   const CadShape& shape;
   Matches matches;
+  SamplingPlan plan;  ///< to begin with
   Protection protection;
   SuppressedFeatures suppressed;  ///< to begin with
-  SamplingPlan plan;              ///< to begin with
   FaceFlags meshed;               ///< to begin with, see leave_out_tiny()
   GridRows rows;
   FaceFlags gridded;  ///< 1 = by its outline, rows of quads run over the face from side to side
