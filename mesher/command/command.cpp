@@ -95,6 +95,7 @@ std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const Si
 std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
                                     const std::vector<NamedFile>& others) {
   std::vector<NamedFile> files;
+  files.reserve(paths.size() + others.size());
   for (const std::filesystem::path& path : paths) files.push_back({"-o", path});
   files.insert(files.end(), others.begin(), others.end());
   return files;
