@@ -26,10 +26,8 @@ struct AdaptArguments {
 nlohmann::ordered_json json_of(const std::vector<StressPeak>& peaks) {
   nlohmann::ordered_json result = nlohmann::ordered_json::array();
   for (const StressPeak& peak : peaks)
-    result.push_back({{"at", {peak.at.x(), peak.at.y(), peak.at.z()}},
-                      {"stress", peak.stress},
-                      {"size", peak.size},
-                      {"sharp_corner", peak.sharp_corner}});
+    result.push_back(
+        {{"at", peak.at}, {"stress", peak.stress}, {"size", peak.size}, {"sharp_corner", peak.sharp_corner}});
   return result;
 }
 
@@ -62,9 +60,8 @@ std::vector<std::string> warnings_on(const AdaptResult& result) {
 nlohmann::ordered_json report_on(const AdaptResult& result) {
   nlohmann::ordered_json changes = nlohmann::ordered_json::array();
   for (const PeakChange& change : result.changes)
-    changes.push_back({{"at", {change.peak.at.x(), change.peak.at.y(), change.peak.at.z()}},
-                       {"change", change.change},
-                       {"singular", change.is_singular()}});
+    changes.push_back(
+        {{"at", change.peak.at}, {"change", change.change}, {"singular", change.is_singular()}});
   return {{"error", result.error},
           {"met", result.is_met},
           {"quads", result.quads},

@@ -37,9 +37,7 @@ void check_files(const RemeshArguments& arguments) {
 
 nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
   const auto distance = [](const RemeshFidelity::Distance& d) {
-    return nlohmann::json{{"distance", d.length},
-                          {"at", {d.at.x(), d.at.y(), d.at.z()}},
-                          {"face", fmt::format("Face{}", d.face)}};
+    return nlohmann::json{{"distance", d.length}, {"at", d.at}, {"face", fmt::format("Face{}", d.face)}};
   };
   nlohmann::json result{{"mesh_from_surface", distance(fidelity.of_mesh)},
                         {"surface_from_mesh", distance(fidelity.of_surface)},

@@ -12,7 +12,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
@@ -33,10 +32,6 @@ json listed(const List& list, Item&& item) {
   json result = json::array();
   for (const auto& member : list) result.push_back(item(member));
   return result;
-}
-
-json place_to_json(const Vector3& place) {
-  return {place.x(), place.y(), place.z()};
 }
 
 json quality_to_json(const QualitySummary& summary) {
@@ -76,13 +71,12 @@ json criteria_to_json(const CriteriaSummary& summary, const CriteriaLimits& limi
         {"failing_percent", percent(summary.failing_by[i])}};
   }
   for (const auto& face : summary.faces)
-    result["by_face"]["Face" + std::to_string(face.face)] = {{"quads", face.quads},
-                                                             {"failing", face.failing}};
+    result["by_face"][entity_name(2, face.face)] = {{"quads", face.quads}, {"failing", face.failing}};
   for (const auto& quad : summary.worst) {
     const CriterionInfo& info = criteria_info[static_cast<std::size_t>(quad.criterion)];
     result["worst"].push_back({{"quad", quad.quad + 1},
-                               {"face", "Face" + std::to_string(quad.face)},
-                               {"center", place_to_json(quad.center)},
+                               {"face", entity_name(2, quad.face)},
+                               {"center", quad.center},
                                {"criterion", info.name},
                                {"value", quad.value}});
   }
@@ -101,7 +95,7 @@ json seconds_to_json(const ExecutionContext& context) {
 
 json faces_to_json(const ShellMesh& mesh) {
   return listed(mesh.faces, [](const ShellMesh::Face& face) {
-    return json{{"name", "Face" + std::to_string(face.face)},
+    return json{{"name", entity_name(2, face.face)},
                 {"status", name_of(face.status)},
                 {"quads", face.quads},
                 {"q_min", face.q_min},
@@ -121,48 +115,33 @@ json off_geometry_to_json(const ShellMesh& mesh) {
   });
 }
 
-/// How far crossed edges lie from the quads that cross them. A quad counts as two triangles.
-class CrossedDistances {
- public:
-  explicit CrossedDistances(const ShellMesh& mesh) : joined_(mesh) {
-    TriangleMesh surface;
-    surface.points = mesh.points;
-    std::vector<int> patches;
-    for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-      if (!joined_.contains(mesh.quad_faces[q])) continue;
-      const auto& [a, b, c, d] = mesh.quads[q];
-      surface.triangles.insert(surface.triangles.end(), {{a, b, c}, {a, c, d}});
-      const auto [found, is_new] =
-          patches_.try_emplace(joined_.first(mesh.quad_faces[q]), static_cast<int>(patches_.size()));
-      patches.insert(patches.end(), 2, found->second);
-    }
-    locator_.emplace(surface, patches, static_cast<int>(patches_.size()));
-  }
-
-  /// The farthest of the points that the edge is drawn by; 0 if its faces have no quads.
-  double of(const ShellMesh::CrossedEdge& edge) const {
-    const auto patch = patches_.find(joined_.first(edge.faces[0]));
-    double farthest = 0;
-    if (patch == patches_.end()) return farthest;
-    for (const Vector3& point : edge.line)
-      farthest = std::max(farthest, (locator_->nearest(patch->second, point).point - point).norm());
-    return farthest;
-  }
-
- private:
-  JoinedFaces joined_;
-  std::map<int, int> patches_;  // of the locator, by the first of the faces that are taken as one
-  std::optional<SurfaceLocator> locator_;
-};
-
+/// The edges that quads cross, and how far they lie from these quads, each of which counts as two triangles:
+/// the farthest of the points that an edge is drawn by; 0 if its faces have no quads.
 json crossed_to_json(const ShellMesh& mesh) {
   if (mesh.crossed_edges.empty()) return json::array();
-  const CrossedDistances distances(mesh);
+  const JoinedFaces joined(mesh);
+  TriangleMesh surface;
+  surface.points = mesh.points;
+  std::vector<int> patches;
+  std::map<int, int> patch_of;  // by the first of the faces that are taken as one
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
+    if (!joined.contains(mesh.quad_faces[q])) continue;
+    const auto& [a, b, c, d] = mesh.quads[q];
+    surface.triangles.insert(surface.triangles.end(), {{a, b, c}, {a, c, d}});
+    const int next = static_cast<int>(patch_of.size());
+    patches.insert(patches.end(), 2,
+                   patch_of.try_emplace(joined.first(mesh.quad_faces[q]), next).first->second);
+  }
+  const SurfaceLocator locator(surface, patches, static_cast<int>(patch_of.size()));
   return listed(mesh.crossed_edges, [&](const ShellMesh::CrossedEdge& edge) {
+    double farthest = 0;
+    if (const auto patch = patch_of.find(joined.first(edge.faces[0])); patch != patch_of.end())
+      for (const Vector3& point : edge.line)
+        farthest = std::max(farthest, (locator.nearest(patch->second, point).point - point).norm());
     return json{{"name", entity_name(1, edge.edge)},
                 {"faces", {entity_name(2, edge.faces[0]), entity_name(2, edge.faces[1])}},
-                {"distance", distances.of(edge)},
-                {"line", listed(edge.line, place_to_json)}};
+                {"distance", farthest},
+                {"line", edge.line}};
   });
 }
 
@@ -172,7 +151,7 @@ json placed_to_json(const ShellMesh& mesh) {
     const auto corner = std::find_if(mesh.corners.begin(), mesh.corners.end(),
                                      [&](const auto& other) { return other.vertex == node.vertex; });
     const bool found = corner != mesh.corners.end();
-    return json{{"name", node.name}, {"at", found ? place_to_json(mesh.points[corner->node]) : json()}};
+    return json{{"name", node.name}, {"at", found ? json(mesh.points[corner->node]) : json()}};
   });
 }
 
@@ -189,10 +168,10 @@ json extra_groups_to_json(const ShellMesh& mesh) {
 json matches_to_json(const ShellMesh& mesh) {
   return listed(mesh.matches, [](const ShellMesh::Match& match) {
     const RigidMotion& motion = match.motion;
-    json moved{{"translation", place_to_json(motion.translation)}};
+    json moved{{"translation", motion.translation}};
     if (motion.angle != 0)
-      moved.update({{"center", place_to_json(motion.center)},
-                    {"axis", place_to_json(motion.axis)},
+      moved.update({{"center", motion.center},
+                    {"axis", motion.axis},
                     {"degrees", motion.angle * 180 / std::numbers::pi}});
     return json{{"from", entity_name(match.dimension, match.entities[0])},
                 {"to", entity_name(match.dimension, match.entities[1])},
@@ -218,7 +197,7 @@ json filled_holes_to_json(const ShellMesh& mesh) {
   };
   return listed(mesh.filled_holes, [&](const ShellMesh::FilledHole& hole) {
     return json{{"kind", hole.boss ? "boss" : "hole"},
-                {"center", place_to_json(hole.center)},
+                {"center", hole.center},
                 {"diameter", hole.diameter},
                 {"in", names(hole.in)},
                 {"faces", names(hole.faces)}};
