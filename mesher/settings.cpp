@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/number_rule.hpp"
 #include "geometry/cad/cad_model.hpp"
+#include "mesher/mesh/entity_name.hpp"
 #include "mesher/size_entries.hpp"
 
 namespace quadrille {
@@ -26,12 +26,20 @@ using Names = std::vector<std::string>;
 using Sizes = std::map<std::string, double>;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::pair<Strategy, std::string_view> strategies[] = {{Strategy::subdivide, "subdivide"},
-                                                                {Strategy::direct, "direct"}};
-constexpr std::pair<Gradation, std::string_view> gradations[] = {{Gradation::surface, "surface"},
-                                                                 {Gradation::space, "space"}};
-constexpr std::pair<MshVersion, std::string_view> msh_versions[] = {{MshVersion::v2_2, "2.2"},
-                                                                    {MshVersion::v4_1, "4.1"}};
+/// The words for the values of an enumeration.
+template <class Word>
+constexpr std::nullptr_t words_for = nullptr;
+template <>
+constexpr std::pair<Strategy, std::string_view> words_for<Strategy>[] = {{Strategy::subdivide, "subdivide"},
+                                                                         {Strategy::direct, "direct"}};
+template <>
+constexpr std::pair<Gradation, std::string_view> words_for<Gradation>[] = {{Gradation::surface, "surface"},
+                                                                           {Gradation::space, "space"}};
+template <>
+constexpr std::pair<MshVersion, std::string_view> words_for<MshVersion>[] = {{MshVersion::v2_2, "2.2"},
+                                                                             {MshVersion::v4_1, "4.1"}};
+template <>
+constexpr const auto& words_for<InpElement> = inp_elements;
 constexpr std::pair<bool GroupKinds::*, std::string_view> group_kinds[] = {
     {&GroupKinds::faces, "faces"}, {&GroupKinds::edges, "edges"}, {&GroupKinds::vertices, "vertices"}};
 constexpr std::string_view no_groups = "none";
@@ -66,21 +74,12 @@ const Wanted& as(const Setting& setting, const SettingValue& value) {
 }
 
 /// The value that a word stands for.
-template <class Value, std::size_t n>
-Value chosen(const Setting& setting, const std::pair<Value, std::string_view> (&table)[n],
-             const SettingValue& value) {
+template <class Word>
+Word chosen(const Setting& setting, const SettingValue& value) {
   const auto& word = as<std::string>(setting, value);
-  for (const auto& [choice, name] : table) {
+  for (const auto& [choice, name] : words_for<Word>)
     if (name == word) return choice;
-  }
   throw refused(setting, fmt::format("must be {}, not '{}'", fmt::join(setting.choices(), " or "), word));
-}
-
-template <class Value, std::size_t n>
-SettingValue word_for(const std::pair<Value, std::string_view> (&table)[n], Value value) {
-  const auto* found =
-      std::find_if(std::begin(table), std::end(table), [&](const auto& pair) { return pair.first == value; });
-  return std::string(found->second);
 }
 
 GroupKinds kinds_of(const Setting& setting, const SettingValue& value) {
@@ -112,32 +111,35 @@ Names words_of(const GroupKinds& kinds) {
 std::vector<int> face_numbers(const Setting& setting, const SettingValue& value) {
   std::vector<int> faces;
   for (const std::string& name : as<Names>(setting, value)) {
-    faces.push_back(number_of(name, "Face"));
-    if (faces.back() == 0) throw refused(setting, fmt::format("takes names such as Face3, not '{}'", name));
+    const auto [dimension, number] = entity_of(name);
+    if (dimension != 2) throw refused(setting, fmt::format("takes names such as Face3, not '{}'", name));
+    faces.push_back(number);
   }
   return faces;
+}
+
+/// The sizes of vertices, edges and faces, by dimension.
+template <class Options>
+auto sizes_by_name(Options& sizing) {
+  return std::array{&sizing.vertex_sizes, &sizing.edge_sizes, &sizing.face_sizes};
 }
 
 void set_sizes(const Setting& setting, const SettingValue& value, SizingOptions& sizing) {
   for (const auto& [name, size] : as<Sizes>(setting, value)) {
     if (!positive.allows(size))
       throw refused(setting, fmt::format("takes positive sizes, not {:g} on {}", size, name));
-    if (const int face = number_of(name, "Face"))
-      sizing.face_sizes[face] = size;
-    else if (const int edge = number_of(name, "Edge"))
-      sizing.edge_sizes[edge] = size;
-    else if (const int vertex = number_of(name, "Vertex"))
-      sizing.vertex_sizes[vertex] = size;
-    else
+    const auto [dimension, number] = entity_of(name);
+    if (dimension < 0)
       throw refused(setting, fmt::format("takes names such as Face3, Edge4 or Vertex2, not '{}'", name));
+    (*sizes_by_name(sizing)[dimension])[number] = size;
   }
 }
 
 Sizes sizes_of(const SizingOptions& sizing) {
   Sizes sizes;
-  for (const auto& [number, size] : sizing.face_sizes) sizes[fmt::format("Face{}", number)] = size;
-  for (const auto& [number, size] : sizing.edge_sizes) sizes[fmt::format("Edge{}", number)] = size;
-  for (const auto& [number, size] : sizing.vertex_sizes) sizes[fmt::format("Vertex{}", number)] = size;
+  for (int dimension = 0; dimension < 3; ++dimension)
+    for (const auto& [number, size] : *sizes_by_name(sizing)[dimension])
+      sizes[entity_name(dimension, number)] = size;
   return sizes;
 }
 
@@ -152,25 +154,18 @@ void in_name_of(const Setting& setting, Work&& work) {
 }
 
 double parse_number(const Setting& setting, std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size()) return value;
+  if (const std::optional<double> value = exactly<double>(text)) return *value;
   throw refused(setting, fmt::format("must be {}, not '{}'", rule_of(setting).sentence(), text));
 }
 
 Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts) {
   Sizes sizes;
   for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    const auto bad =
-        refused(setting, fmt::format("takes Face3=0.5, Edge4=0.5 or Vertex2=0.5, not '{}'", text));
-    if (equals == std::string::npos) throw bad;
-    const char *begin = text.data() + equals + 1, *end = text.data() + text.size();
-    const std::string name = text.substr(0, equals);
-    double size = 0;
-    const auto parsed = std::from_chars(begin, end, size);
-    if (parsed.ec != std::errc() || parsed.ptr != end) throw bad;
-    if (!sizes.emplace(name, size).second) throw refused(setting, fmt::format("names {} twice", name));
+    const auto [name, number] = sides_of_equals(text);
+    const std::optional<double> size = exactly<double>(number);
+    if (!size)
+      throw refused(setting, fmt::format("takes Face3=0.5, Edge4=0.5 or Vertex2=0.5, not '{}'", text));
+    if (!sizes.emplace(name, *size).second) throw refused(setting, fmt::format("names {} twice", name));
   }
   return sizes;
 }
@@ -340,12 +335,11 @@ void check_limits(const Settings& settings) {
 }
 
 template <class Numbers>
-void check_names(const Setting& setting, const Numbers& numbers, std::string_view kind, int count) {
-  for (const int number : numbers) {
-    if (number >= 1 && number <= count) continue;
-    throw refused(setting, fmt::format("names {0}{1}, and there is no {0}{1}: the model has {2} of them",
-                                       kind, number, count));
-  }
+void check_names(const Setting& setting, const Numbers& numbers, int dimension, int count) {
+  for (const int number : numbers)
+    if (number < 1 || number > count)
+      throw refused(setting, fmt::format("names {0}, and there is no {0}: the model has {1} of them",
+                                         entity_name(dimension, number), count));
 }
 
 /// As std::views::keys, which clang 14 does not compile with GCC 12's library.
@@ -375,14 +369,15 @@ std::vector<std::string_view> Setting::choices() const {
   const auto take_from = [&](const auto& table) {
     for (const auto& [value, word] : table) words.push_back(word);
   };
-  if (std::holds_alternative<Strategy& (*)(Settings&)>(place)) take_from(strategies);
-  if (std::holds_alternative<MshVersion& (*)(Settings&)>(place)) take_from(msh_versions);
-  if (std::holds_alternative<Gradation& (*)(Settings&)>(place)) take_from(gradations);
-  if (std::holds_alternative<InpElement& (*)(Settings&)>(place)) take_from(inp_elements);
-  if (std::holds_alternative<GroupKinds& (*)(Settings&)>(place)) {
-    take_from(group_kinds);
-    words.push_back(no_groups);
-  }
+  std::visit(Overloaded{[&]<class Value>(Value& (*)(Settings&)) {
+                          if constexpr (std::is_enum_v<Value>) take_from(words_for<Value>);
+                        },
+                        [&](GroupKinds& (*)(Settings&)) {
+                          take_from(group_kinds);
+                          words.push_back(no_groups);
+                        },
+                        [](const EntryList&) {}, [](const Text&) {}},
+             place);
   return words;
 }
 
@@ -393,17 +388,18 @@ SettingValue Setting::value(const Settings& settings) const {
           [&](double& (*at)(Settings&)) -> SettingValue { return at(from); },
           [&](int& (*at)(Settings&)) -> SettingValue { return static_cast<double>(at(from)); },
           [&](bool& (*at)(Settings&)) -> SettingValue { return at(from); },
-          [&](Strategy& (*at)(Settings&)) { return word_for(strategies, at(from)); },
-          [&](MshVersion& (*at)(Settings&)) { return word_for(msh_versions, at(from)); },
-          [&](Gradation& (*at)(Settings&)) { return word_for(gradations, at(from)); },
-          [&](InpElement& (*at)(Settings&)) { return word_for(inp_elements, at(from)); },
+          [&]<class Word>(Word& (*at)(Settings&)) -> SettingValue {
+            const auto has_value = [&](const auto& row) { return row.first == at(from); };
+            return std::string(
+                std::find_if(std::begin(words_for<Word>), std::end(words_for<Word>), has_value)->second);
+          },
           [&](GroupKinds& (*at)(Settings&)) -> SettingValue { return words_of(at(from)); },
           [&](const EntryList& list) -> SettingValue { return list.get(from.mesh.sizing); },
           [&](const Text& text) -> SettingValue { return text.get(from.mesh.sizing); },
           [&](std::filesystem::path& (*at)(Settings&)) -> SettingValue { return at(from).string(); },
           [&](std::vector<int>& (*at)(Settings&)) -> SettingValue {
             Names names;
-            for (const int face : at(from)) names.push_back(fmt::format("Face{}", face));
+            for (const int face : at(from)) names.push_back(entity_name(2, face));
             return names;
           },
           [&](SizingOptions& (*at)(Settings&)) -> SettingValue { return sizes_of(at(from)); },
@@ -446,10 +442,7 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
             at(settings) = static_cast<int>(checked(setting, as<double>(setting, value)));
           },
           [&](bool& (*at)(Settings&)) { at(settings) = as<bool>(setting, value); },
-          [&](Strategy& (*at)(Settings&)) { at(settings) = chosen(setting, strategies, value); },
-          [&](MshVersion& (*at)(Settings&)) { at(settings) = chosen(setting, msh_versions, value); },
-          [&](Gradation& (*at)(Settings&)) { at(settings) = chosen(setting, gradations, value); },
-          [&](InpElement& (*at)(Settings&)) { at(settings) = chosen(setting, inp_elements, value); },
+          [&]<class Word>(Word& (*at)(Settings&)) { at(settings) = chosen<Word>(setting, value); },
           [&](GroupKinds& (*at)(Settings&)) { at(settings) = kinds_of(setting, value); },
           [&](const Setting::EntryList& list) {
             in_name_of(setting, [&] { list.set(settings.mesh.sizing, as<Names>(setting, value)); });
@@ -476,23 +469,25 @@ CadModel joined(const Settings& settings, const CadModel& model) {
 namespace {
 
 /// The numbers of the pieces of a face, edge or vertex.
-std::vector<int> pieces_of(const Setting& setting, std::string_view kind, int number,
-                           const std::vector<std::vector<int>>& pieces) {
+std::vector<int> pieces_of(const Setting& setting, int dimension, int number, const CadModel& model) {
+  const std::vector<std::vector<int>>& pieces = dimension == 2   ? model.pieces()
+                                                : dimension == 1 ? model.edge_pieces()
+                                                                 : model.vertex_pieces();
   if (pieces.empty())
-    throw refused(setting, fmt::format("names {}{}: edges and vertices cannot be named where a model is "
+    throw refused(setting, fmt::format("names {}: edges and vertices cannot be named where a model is "
                                        "imprinted with `sew`, which renumbers them",
-                                       kind, number));
-  check_names(setting, std::array{number}, kind, static_cast<int>(pieces.size()));
+                                       entity_name(dimension, number)));
+  check_names(setting, std::array{number}, dimension, static_cast<int>(pieces.size()));
   return pieces[static_cast<std::size_t>(number) - 1];
 }
 
 /// Where several entities share a piece, the value that `better` prefers.
 template <class Value, class Better>
-void rename(const Setting& setting, std::string_view kind, const std::vector<std::vector<int>>& pieces,
-            std::map<int, Value>& values, Better better) {
+void rename(const Setting& setting, int dimension, const CadModel& model, std::map<int, Value>& values,
+            Better better) {
   std::map<int, Value> renamed;
   for (const auto& [number, value] : values) {
-    for (const int piece : pieces_of(setting, kind, number, pieces)) {
+    for (const int piece : pieces_of(setting, dimension, number, model)) {
       const auto [place, is_new] = renamed.emplace(piece, value);
       if (!is_new && better(value, place->second)) place->second = value;
     }
@@ -508,46 +503,35 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
   std::vector<int>& faces = result.mesh.faces;
   faces.clear();
   for (const int face : settings.mesh.faces)
-    for (const int piece : pieces_of(entry("faces"), "Face", face, model.pieces()))
+    for (const int piece : pieces_of(entry("faces"), 2, face, model))
       if (std::find(faces.begin(), faces.end(), piece) == faces.end()) faces.push_back(piece);
   SizingOptions& sizing = result.mesh.sizing;
-  const auto smaller = [](double one, double other) { return one < other; };
-  rename(entry("sizes"), "Face", model.pieces(), sizing.face_sizes, smaller);
-  rename(entry("sizes"), "Edge", model.edge_pieces(), sizing.edge_sizes, smaller);
-  rename(entry("sizes"), "Vertex", model.vertex_pieces(), sizing.vertex_sizes, smaller);
-  const auto pieces_named = [&](std::set<int>& numbers, std::string_view kind,
-                                const std::vector<std::vector<int>>& pieces) {
-    std::set<int> renamed;
-    for (const int number : numbers) {
-      const std::vector<int> of_number = pieces_of(entry("keep"), kind, number, pieces);
-      renamed.insert(of_number.begin(), of_number.end());
-    }
-    numbers = std::move(renamed);
-  };
-  pieces_named(sizing.kept_faces, "Face", model.pieces());
-  pieces_named(sizing.kept_edges, "Edge", model.edge_pieces());
-  for (MatchedPair& pair : sizing.matches) {
-    const bool faces_match = pair.dimension == 2;
-    for (int* number : {&pair.first, &pair.second}) {
-      const char* kind = faces_match ? "Face" : "Edge";
-      const std::vector<int> pieces =
-          pieces_of(entry("match"), kind, *number, faces_match ? model.pieces() : model.edge_pieces());
-      if (pieces.size() != 1)
-        throw refused(entry("match"),
-                      fmt::format("names {}{}, which `imprint` cuts or drops: import the cut model "
-                                  "and name its pieces",
-                                  kind, *number));
-      *number = pieces.front();
+  for (const int dimension : {2, 1, 0})
+    rename(entry("sizes"), dimension, model, *sizes_by_name(sizing)[dimension], std::less());
+  for (const int dimension : {2, 1}) {
+    std::set<int>& kept = dimension == 2 ? sizing.kept_faces : sizing.kept_edges;
+    for (const int number : std::exchange(kept, {})) {
+      const std::vector<int> pieces = pieces_of(entry("keep"), dimension, number, model);
+      kept.insert(pieces.begin(), pieces.end());
     }
   }
+  for (MatchedPair& pair : sizing.matches)
+    for (int* number : {&pair.first, &pair.second}) {
+      const std::vector<int> pieces = pieces_of(entry("match"), pair.dimension, *number, model);
+      if (pieces.size() != 1)
+        throw refused(entry("match"),
+                      fmt::format("names {}, which `imprint` cuts or drops: import the cut model "
+                                  "and name its pieces",
+                                  entity_name(pair.dimension, *number)));
+      *number = pieces.front();
+    }
   const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
-  rename(entry("layers"), "Face", model.pieces(), sizing.layers.faces, finer);
-  rename(entry("layers"), "Edge", model.edge_pieces(), sizing.layers.edges, finer);
-  rename(entry("layers"), "Vertex", model.vertex_pieces(), sizing.layers.vertices, finer);
+  for (const int dimension : {2, 1, 0})
+    rename(entry("layers"), dimension, model, sizing.layers.of(dimension), finer);
   std::map<int, EdgeSpacing> spacings;
   for (const auto& [edge, spacing] : sizing.spacings) {
     const Setting& setting = entry_of(spacing);
-    const std::vector<int> pieces = pieces_of(setting, "Edge", edge, model.edge_pieces());
+    const std::vector<int> pieces = pieces_of(setting, 1, edge, model);
     if (pieces.size() != 1 || !spacings.emplace(pieces.front(), spacing).second)
       throw refused(setting,
                     fmt::format("names Edge{}, which `imprint` cuts, joins with another edge that is "
@@ -573,25 +557,21 @@ void check(const Settings& settings, const CadModel& model) {
        {std::pair("merge_tiny", settings.mesh.merge_tiny), std::pair("reach", settings.mesh.reach)})
     if (length > size)
       throw refused(entry(name), fmt::format("must be at most the size, {:.6g}, not {:g}", size, length));
-  const auto check_all = [&](const Setting& setting, const auto& numbers, std::string_view kind) {
-    check_names(setting, numbers, kind,
-                kind == "Face"   ? model.face_count()
-                : kind == "Edge" ? model.edge_count()
-                                 : model.vertex_count());
+  const int counts[] = {model.vertex_count(), model.edge_count(), model.face_count()};
+  const auto check_all = [&](const Setting& setting, const auto& numbers, int dimension) {
+    check_names(setting, numbers, dimension, counts[dimension]);
   };
-  check_all(entry("faces"), settings.mesh.faces, "Face");
-  check_all(entry("sizes"), keys(sizing.face_sizes), "Face");
-  check_all(entry("sizes"), keys(sizing.edge_sizes), "Edge");
-  check_all(entry("sizes"), keys(sizing.vertex_sizes), "Vertex");
-  check_all(entry("keep"), sizing.kept_faces, "Face");
-  check_all(entry("keep"), sizing.kept_edges, "Edge");
-  for (const MatchedPair& pair : sizing.matches)
-    check_all(entry("match"), std::array{pair.first, pair.second}, pair.dimension == 2 ? "Face" : "Edge");
-  check_all(entry("layers"), keys(sizing.layers.faces), "Face");
-  check_all(entry("layers"), keys(sizing.layers.edges), "Edge");
-  check_all(entry("layers"), keys(sizing.layers.vertices), "Vertex");
+  check_all(entry("faces"), settings.mesh.faces, 2);
+  for (const int dimension : {2, 1, 0})
+    check_all(entry("sizes"), keys(*sizes_by_name(sizing)[dimension]), dimension);
+  check_all(entry("keep"), sizing.kept_faces, 2);
+  check_all(entry("keep"), sizing.kept_edges, 1);
+  for (const auto& [dimension, first, second] : sizing.matches)
+    check_all(entry("match"), std::array{first, second}, dimension);
+  for (const int dimension : {2, 1, 0})
+    check_all(entry("layers"), keys(sizing.layers.of(dimension)), dimension);
   for (const auto& [edge, spacing] : sizing.spacings) {
-    check_all(entry_of(spacing), std::array{edge}, "Edge");
+    check_all(entry_of(spacing), std::array{edge}, 1);
     if (spacing.bias != 1 && spacing.bias_both != 1)
       throw refused(entry("bias_both"),
                     fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));

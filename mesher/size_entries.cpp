@@ -2,10 +2,7 @@
 
 #include "mesher/size_entries.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -17,6 +14,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/cad/face_names.hpp"
+#include "mesher/mesh/entity_name.hpp"
 
 namespace quadrille {
 
@@ -39,18 +37,8 @@ constexpr std::array<ShapeForm, 4> shape_forms{{{Shape::box, "box", 6},
 }
 
 std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t comma; (comma = text.find(',')) != std::string_view::npos; text.remove_prefix(comma + 1))
-    parts.push_back(text.substr(0, comma));
-  parts.push_back(text);
-  return parts;
+  const std::optional<double> value = exactly<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Numbers separated by commas; empty if one of them is not a number.
@@ -112,10 +100,10 @@ void take_edges(const Entries& entries, const char* what, Take&& take) {
   std::set<int> names;
   for (const std::string& entry : entries) {
     for (const std::string_view part : split(entry)) {
-      const std::size_t equals = std::min(part.find('='), part.size());
-      const int edge = number_of(part.substr(0, equals), "Edge");
-      const auto value = equals < part.size() ? number(part.substr(equals + 1)) : std::nullopt;
-      if (edge == 0 || !value || !take(edge, *value)) refuse(what, std::string(part));
+      const auto [name, text] = sides_of_equals(part);
+      const auto [dimension, edge] = entity_of(name);
+      const auto value = number(text);
+      if (dimension != 1 || !value || !take(edge, *value)) refuse(what, std::string(part));
       if (!names.insert(edge).second) throw std::invalid_argument(fmt::format("names Edge{} twice", edge));
     }
   }
@@ -149,14 +137,6 @@ Entries ratios_of(const SizingOptions& sizing, double EdgeSpacing::*place) {
 
 }  // namespace
 
-int number_of(std::string_view name, std::string_view kind) {
-  if (name.substr(0, kind.size()) != kind) return 0;
-  name.remove_prefix(kind.size());
-  int number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end == name.data() + name.size() && number > 0 ? number : 0;
-}
-
 void set_regions(SizingOptions& sizing, const Entries& entries) {
   sizing.regions.clear();
   for (const std::string& entry : entries) sizing.regions.push_back(region(entry));
@@ -173,20 +153,17 @@ void set_kept(SizingOptions& sizing, const Entries& entries) {
   sizing.kept_edges.clear();
   for (const std::string& entry : entries) {
     for (const std::string_view name : split(entry)) {
-      if (const int face = number_of(name, "Face"))
-        sizing.kept_faces.insert(face);
-      else if (const int edge = number_of(name, "Edge"))
-        sizing.kept_edges.insert(edge);
-      else
-        refuse("faces and edges such as Edge7,Face3", entry);
+      const auto [dimension, number] = entity_of(name);
+      if (dimension < 1) refuse("faces and edges such as Edge7,Face3", entry);
+      (dimension == 2 ? sizing.kept_faces : sizing.kept_edges).insert(number);
     }
   }
 }
 
 Entries kept_of(const SizingOptions& sizing) {
   Entries entries;
-  for (const int face : sizing.kept_faces) entries.push_back(fmt::format("Face{}", face));
-  for (const int edge : sizing.kept_edges) entries.push_back(fmt::format("Edge{}", edge));
+  for (const int face : sizing.kept_faces) entries.push_back(entity_name(2, face));
+  for (const int edge : sizing.kept_edges) entries.push_back(entity_name(1, edge));
   return entries;
 }
 
@@ -194,14 +171,11 @@ void set_matches(SizingOptions& sizing, const Entries& entries) {
   std::vector<MatchedPair> matches;
   for (const std::string& entry : entries) {
     for (const std::string_view text : split(entry)) {
-      const std::size_t equals = std::min(text.find('='), text.size());
-      const std::string_view first = text.substr(0, equals),
-                             second = text.substr(std::min(equals + 1, text.size()));
-      MatchedPair pair{2, number_of(first, "Face"), number_of(second, "Face")};
-      if (pair.first == 0) pair = {1, number_of(first, "Edge"), number_of(second, "Edge")};
-      if (pair.first == 0 || pair.second == 0 || pair.first == pair.second)
+      const auto [name, other_name] = sides_of_equals(text);
+      const NamedEntity first = entity_of(name), second = entity_of(other_name);
+      if (first.dimension < 1 || first.dimension != second.dimension || first.number == second.number)
         refuse("pairs of faces or edges such as Face3=Face7,Edge2=Edge9", entry);
-      matches.push_back(pair);
+      matches.push_back({first.dimension, first.number, second.number});
     }
   }
   sizing.matches = std::move(matches);
@@ -209,10 +183,8 @@ void set_matches(SizingOptions& sizing, const Entries& entries) {
 
 Entries matches_of(const SizingOptions& sizing) {
   Entries entries;
-  for (const MatchedPair& pair : sizing.matches) {
-    const char* kind = pair.dimension == 2 ? "Face" : "Edge";
-    entries.push_back(fmt::format("{0}{1}={0}{2}", kind, pair.first, pair.second));
-  }
+  for (const auto& [dimension, first, second] : sizing.matches)
+    entries.push_back(entity_name(dimension, first) + "=" + entity_name(dimension, second));
   return entries;
 }
 
@@ -253,33 +225,25 @@ void set_layers(SizingOptions& sizing, const Entries& entries) {
   constexpr double steepest = 3, max_layers = 1000;
   sizing.layers = {};
   for (const std::string& entry : entries) {
-    const std::size_t equals = std::min(entry.find('='), entry.size());
-    const std::string name = entry.substr(0, equals);
-    const std::vector<double> values =
-        equals < entry.size() ? numbers(std::string_view(entry).substr(equals + 1)) : std::vector<double>();
+    const auto [name, text] = sides_of_equals(entry);
+    const std::vector<double> values = numbers(text);
     if (values.size() != 3 || !(values[0] > 0) || !(values[1] >= 1 && values[1] <= steepest) ||
         !(values[2] >= 1 && values[2] <= max_layers && values[2] == std::floor(values[2])))
       refuse(what, entry);
-    auto& layers = sizing.layers;
-    const int face = number_of(name, "Face"), edge = number_of(name, "Edge"),
-              vertex = number_of(name, "Vertex");
-    if (face + edge + vertex == 0) refuse("names such as Face3, Edge4 or Vertex2", name);
-    auto& same = face ? layers.faces : edge ? layers.edges : layers.vertices;
-    if (!same.emplace(face + edge + vertex, SizeLayers{values[0], values[1], static_cast<int>(values[2])})
-             .second)
+    const auto [dimension, number] = entity_of(name);
+    if (dimension < 0) refuse("names such as Face3, Edge4 or Vertex2", std::string(name));
+    const SizeLayers layers{values[0], values[1], static_cast<int>(values[2])};
+    if (!sizing.layers.of(dimension).emplace(number, layers).second)
       throw std::invalid_argument(fmt::format("names {} twice", name));
   }
 }
 
 Entries layers_of(const SizingOptions& sizing) {
   Entries entries;
-  const auto add = [&](std::string_view kind, const std::map<int, SizeLayers>& layers) {
-    for (const auto& [element, own] : layers)
-      entries.push_back(fmt::format("{}{}={},{},{}", kind, element, own.first, own.ratio, own.count));
-  };
-  add("Face", sizing.layers.faces);
-  add("Edge", sizing.layers.edges);
-  add("Vertex", sizing.layers.vertices);
+  for (const int dimension : {2, 1, 0})
+    for (const auto& [number, own] : sizing.layers.of(dimension))
+      entries.push_back(
+          fmt::format("{}={},{},{}", entity_name(dimension, number), own.first, own.ratio, own.count));
   return entries;
 }
 
@@ -296,9 +260,7 @@ void set_nodes(SizingOptions& sizing, const Entries& entries) {
     if (at.size() != 3) refuse("places such as 10,0,2.5 or Tip=10,0,2.5", entry);
     if (equals != std::string::npos && (!std::regex_match(name, form) || is_own_group(name)))
       refuse("names of letters, digits, _ and - that no other group can have", name);
-    std::string low = name;
-    std::transform(low.begin(), low.end(), low.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (!name.empty() && !names.insert(low).second)  // CalculiX ignores case
+    if (!name.empty() && !names.insert(upper(name)).second)  // CalculiX ignores case
       throw std::invalid_argument(fmt::format("names {} twice", name));
     nodes.push_back({name, Vector3(at[0], at[1], at[2])});
   }

@@ -45,7 +45,4 @@ Entries nodes_of(const SizingOptions& sizing);
 void set_chord_error(SizingOptions& sizing, const std::string& text);
 std::string chord_error_of(const SizingOptions& sizing);
 
-/// The number in a name: 3 for "Face3" and the kind "Face"; 0 if the name is not of that kind.
-int number_of(std::string_view name, std::string_view kind);
-
 }  // namespace quadrille

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/mesh/entity_name.hpp"
+
 namespace quadrille {
 namespace {
 
@@ -59,8 +61,10 @@ TEST(SizeEntries, AreUnderstood) {
   EXPECT_EQ(chord_error_of(sizing), "2%");
   set_chord_error(sizing, "0.05");
   EXPECT_EQ(sizing.chord_error.length, 0.05);
-  EXPECT_EQ(number_of("Face3", "Face"), 3);
-  EXPECT_EQ(number_of("Edge3", "Face"), 0);
+  EXPECT_EQ(entity_of("Face3").dimension, 2);
+  EXPECT_EQ(entity_of("Face3").number, 3);
+  EXPECT_EQ(entity_of("Edge3").dimension, 1);
+  EXPECT_EQ(entity_of("Face0").dimension, -1);
 }
 
 TEST(SizeEntries, AreRefusedWithTheEntry) {

@@ -87,6 +87,14 @@ struct ByElement {
   std::map<int, Value> faces;     ///< by CAD face, from 1
   std::map<int, Value> edges;     ///< by CAD edge, from 1
   std::map<int, Value> vertices;  ///< by CAD vertex, from 1
+  /// Those of faces (dimension 2), edges (1) or vertices (0).
+  const std::map<int, Value>& of(int dimension) const {
+    return dimension == 2 ? faces : dimension == 1 ? edges : vertices;
+  }
+  /// The same, to be changed.
+  std::map<int, Value>& of(int dimension) {
+    return dimension == 2 ? faces : dimension == 1 ? edges : vertices;
+  }
   /// Whether there are no entries at all.
   bool empty() const { return faces.empty() && edges.empty() && vertices.empty(); }
 };

@@ -3,9 +3,9 @@
 #include "geometry/sizing/spatial_sizes.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -15,6 +15,7 @@
 #include "geometry/base/isolated_work.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/base/place_text.hpp"
+#include "geometry/base/text_parts.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/vdb_module.hpp"
 
@@ -60,19 +61,12 @@ bool reaches(const SizeRegion& region, const CadModel& model) {
 /// The comma-separated numbers of a line; none if a field is not a number.
 std::vector<double> numbers_of(std::string_view line) {
   std::vector<double> numbers;
-  while (true) {
-    const std::size_t comma = std::min(line.find(','), line.size());
-    std::string_view field = line.substr(0, comma);
-    const auto trim = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-    while (!field.empty() && trim(field.front())) field.remove_prefix(1);
-    while (!field.empty() && trim(field.back())) field.remove_suffix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size()) return {};
-    numbers.push_back(value);
-    if (comma == line.size()) return numbers;
-    line.remove_prefix(comma + 1);
+  for (const std::string_view field : split(line)) {
+    const std::optional<double> value = exactly<double>(trimmed(field));
+    if (!value) return {};
+    numbers.push_back(*value);
   }
+  return numbers;
 }
 
 }  // namespace

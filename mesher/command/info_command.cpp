@@ -11,7 +11,7 @@
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
-#include "mesher/io/output_mesh.hpp"
+#include "mesher/mesh/entity_name.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "geometry/base/text_parts.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/setting_options.hpp"
 #include "mesher/command/surface_input.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
-#include "mesher/io/text_cursor.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/shell/from_triangles.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_ending.hpp"
+#include "geometry/base/text_parts.hpp"
 #include "mesher/io/io.hpp"
-#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille::command {
 

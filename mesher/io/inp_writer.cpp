@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/text_parts.hpp"
 #include "mesher/io/plane_mesh.hpp"
 #include "mesher/io/segment_sides.hpp"
-#include "mesher/io/text_cursor.hpp"
 #include "mesher/io/writers.hpp"
 
 namespace quadrille {

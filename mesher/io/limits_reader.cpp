@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/text_parts.hpp"
 #include "mesher/io/readers.hpp"
-#include "mesher/io/text_cursor.hpp"
 
 namespace quadrille {
 namespace {

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/printable.hpp"
-#include "mesher/io/text_cursor.hpp"
+#include "mesher/mesh/entity_name.hpp"
 
 namespace quadrille {
 
@@ -185,14 +184,12 @@ void MeshBuilder::append(const FileElement& element) {
   }
 }
 
-int MeshBuilder::number_in_name(int groups, std::string_view kind) const {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-  };
+int MeshBuilder::number_in_name(int groups, int dimension) const {
+  const std::string_view kind = entity_kinds[dimension];
   const std::vector<int>& set = group_sets_[groups];
   for (auto group = set.rbegin(); group != set.rend(); ++group) {
     const std::string_view name = groups_[*group].name;
-    if (name.size() <= kind.size() || !std::equal(kind.begin(), kind.end(), name.begin(), same)) continue;
+    if (name.size() <= kind.size() || upper(name.substr(0, kind.size())) != upper(kind)) continue;
     const std::optional<int> number = exactly<int>(name.substr(kind.size()));
     if (number && *number > 0) return *number;
   }
@@ -234,19 +231,17 @@ class EntityNumbers {
 }  // namespace
 
 void MeshBuilder::number_entities() {
-  constexpr std::string_view kinds[] = {"Vertex", "Edge", "Face"};
   const auto dimension_of = [](const FileElement& element) {
     return std::min(static_cast<int>(element.shape), 2);
   };
   EntityNumbers numbers[3];
   for (FileElement& element : elements_) {
     const int dimension = dimension_of(element);
-    if (element.cad == 0 && element.groups != 0)
-      element.cad = number_in_name(element.groups, kinds[dimension]);
+    if (element.cad == 0 && element.groups != 0) element.cad = number_in_name(element.groups, dimension);
     numbers[dimension].add(element.cad, element.groups);
   }
   for (const int groups : node_groups_)
-    if (groups != 0) numbers[0].add(number_in_name(groups, kinds[0]), groups);
+    if (groups != 0) numbers[0].add(number_in_name(groups, 0), groups);
   std::map<std::pair<int, int>, std::vector<int>> entities;  // by group and dimension
   for (const int dimension : {2, 1, 0}) {
     numbers[dimension].finish();
@@ -262,7 +257,7 @@ void MeshBuilder::number_entities() {
     element.cad = numbers[dimension_of(element)].of(element.cad, element.groups);
   for (std::size_t node = 0; node < node_groups_.size(); ++node) {
     if (node_groups_[node] == 0 || new_index_[node] < 0) continue;
-    const int cad = number_in_name(node_groups_[node], kinds[0]);
+    const int cad = number_in_name(node_groups_[node], 0);
     mesh_.corners.push_back({new_index_[node], numbers[0].of(cad, node_groups_[node])});
   }
 }

@@ -66,7 +66,7 @@ class MeshBuilder {
   void renumber();
   void append(const FileElement& element);
   void number_entities();
-  int number_in_name(int groups, std::string_view kind) const;
+  int number_in_name(int groups, int dimension) const;
   int kept(const FileElement& element, int place) const { return new_index_[resolve(element, place)]; }
 
   std::string name_;

@@ -38,11 +38,6 @@ void sort_unique(std::vector<int>& numbers) {
 
 }  // namespace
 
-std::string entity_name(int dimension, int number) {
-  constexpr const char* kinds[] = {"Vertex", "Edge", "Face"};
-  return kinds[dimension] + std::to_string(number);
-}
-
 OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad_nodes)
     : mesh_(mesh), groups_(groups) {
   number_nodes();

@@ -6,13 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/mesh/entity_name.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/options.hpp"
 
 namespace quadrille {
-
-/// FreeCAD's name of a vertex (dimension 0), edge (1) or face (2): "Face3".
-std::string entity_name(int dimension, int number);
 
 /// The nodes of one element, as indices for OutputMesh::position(): corners, midside nodes, the middle node.
 struct ElementNodes {

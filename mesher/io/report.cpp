@@ -16,7 +16,7 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
 #include "mesher/io/io.hpp"
-#include "mesher/io/output_mesh.hpp"
+#include "mesher/mesh/entity_name.hpp"
 #include "mesher/mesh/joined_faces.hpp"
 #include "mesher/remesh/surface_locator.hpp"
 

@@ -57,9 +57,7 @@ class FrdReader {
 
   template <class Number>
   Number number(std::size_t start, std::size_t width) const {
-    std::string_view text = field(start, width);
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+    std::string_view text = trimmed(field(start, width));
     if (const std::optional<Number> value = parsed<Number>(text)) return *value;
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);
     throw cursor_.error_before(fmt::format("'{}' is not a number", text));
@@ -67,8 +65,7 @@ class FrdReader {
 
   /// Column where values start in the lines of the block that the current line begins, from 0: 13 or 8.
   std::size_t begin_block() {
-    std::string_view header = line_;
-    while (!header.empty() && header.back() == ' ') header.remove_suffix(1);
+    const std::string_view header = trimmed(line_);
     const char format = header.empty() ? ' ' : header.back();
     if (format == '2' || format == '3') throw bad("is binary: use *NODE FILE and *EL FILE, which write text");
     return format == '0' ? 8 : 13;

@@ -4,45 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "geometry/base/error.hpp"
+#include "geometry/base/text_parts.hpp"
 
 namespace quadrille {
-
-/// The text without blanks at its ends.
-inline std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-inline std::string upper(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  return result;
-}
-
-/// The number that the whole text is, without a plus sign; nothing if it is none.
-template <class Number>
-std::optional<Number> exactly(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-/// The same, with or without a plus sign.
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  return exactly<Number>(!text.empty() && text.front() == '+' ? text.substr(1) : text);
-}
 
 /// A position in a text (or a binary file with text in it). Its errors name the file and the line.
 class TextCursor {

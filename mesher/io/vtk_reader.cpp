@@ -15,6 +15,7 @@
 #include "geometry/base/file_ending.hpp"
 #include "geometry/base/free_memory.hpp"
 #include "geometry/base/isolated_work.hpp"
+#include "geometry/base/text_parts.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
@@ -29,9 +30,8 @@ std::vector<std::string> solid_names(const std::filesystem::path& path) {
   std::vector<std::string> names;
   for (std::string line; std::getline(file, line);) {
     const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
-    std::string word = line.substr(begin, 6);
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (word == "solid" || word == "solid ") {
+    const std::string word = upper(std::string_view(line).substr(begin, 6));
+    if (word == "SOLID" || word == "SOLID ") {
       line.erase(0, std::min(begin + 6, line.size()));
       while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
       names.push_back(line);
