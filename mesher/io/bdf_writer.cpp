@@ -72,11 +72,6 @@ void write_sets(const OutputMesh& mesh, TextWriter& out) {
     write_set(++set, group.name, "elements", OutputMesh::numbers_of(group.members), out);
 }
 
-const char* card(const ElementNodes& element) {
-  if (element.count == 3) return "CTRIA3";
-  return element.count == 8 ? "CQUAD8" : "CQUAD4";
-}
-
 /// Property numbers are positive: elements without a face get the number after the last face.
 int property(const OutputMesh& mesh, int face) {
   return face > 0 ? face : mesh.cad_face_count() + 1;
@@ -98,7 +93,7 @@ void write_properties(const OutputMesh& mesh, TextWriter& out) {
 
 void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
   const ElementNodes element = mesh.shell_nodes(shell);
-  out << card(element) << "  ";
+  out << element.type().bdf << "  ";
   out.padded(shell + 1, narrow);
   out.padded(property(mesh, mesh.face(shell)), narrow);
   for (int k = 0; k < element.count; ++k) {
@@ -126,10 +121,10 @@ void write_bdf(const Writing& writing, TextWriter& out) {
   write_sets(mesh, out);
   out << "BEGIN BULK\n";
   write_properties(mesh, out);
-  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
-    const Vector3& point = mesh.point(static_cast<int>(i));
+  write_in_order(mesh.nodes().size(), out, [&](int i, TextWriter& to) {
+    const Vector3& point = mesh.point(i);
     to << "GRID*   ";
-    to.padded(static_cast<int>(i) + 1, wide);
+    to.padded(i + 1, wide);
     to.padded("", wide);
     write_real(point.x(), to);
     write_real(point.y(), to);
@@ -137,8 +132,7 @@ void write_bdf(const Writing& writing, TextWriter& out) {
     write_real(point.z(), to);
     to << '\n';
   });
-  write_in_order(mesh.shell_count(), out,
-                 [&](std::size_t i, TextWriter& to) { write_element(mesh, static_cast<int>(i), to); });
+  write_in_order(mesh.shell_count(), out, [&](int i, TextWriter& to) { write_element(mesh, i, to); });
   out << "ENDDATA\n";
 }
 

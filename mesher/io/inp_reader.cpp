@@ -182,11 +182,11 @@ class InpReader {
       return std::find(names.begin(), names.end(), type) != names.end();
     };
     if (const int nodes = nodes_of_surface_element(type); nodes > 0)
-      set_shape(nodes == 3 || nodes == 6 ? ElementShape::triangle : ElementShape::quad, nodes);
+      expect(element_type(2, nodes));
     else if (is_one_of({"T3D2", "T2D2", "B31", "B31R", "B21"}))
-      set_shape(ElementShape::line, 2);
+      expect(element_type(1, 2));
     else if (is_one_of({"T3D3", "T2D3", "B32", "B32R", "B22"}))
-      set_shape(ElementShape::line, 3);
+      expect(element_type(1, 3));
     else if (type.substr(0, 2) == "C3" || type.substr(0, 2) == "DC")
       throw cursor_.error_before(
           fmt::format("elements of type {} are volumes: only surface meshes are read", type));
@@ -196,10 +196,10 @@ class InpReader {
     block_ = Block::elements;
   }
 
-  void set_shape(ElementShape shape, int nodes) {
-    pending_.shape = shape;
-    pending_.node_count = std::min(nodes, static_cast<int>(pending_.nodes.size()));
-    file_nodes_ = nodes;
+  void expect(const ElementType& type) {
+    pending_.shape = type.shape;
+    pending_.node_count = type.kept_nodes();
+    file_nodes_ = type.nodes;
     read_numbers_ = 0;
   }
 

@@ -86,7 +86,7 @@ void write_elements(const OutputMesh& mesh, InpElement element, const CadGroup& 
   out << "*ELEMENT, TYPE=" << element_type(mesh, element, quads);
   if (!set.empty()) out << ", ELSET=" << set;
   out << '\n';
-  write_in_order(group.members.size(), out, [&](std::size_t i, TextWriter& to) {
+  write_in_order(group.members.size(), out, [&](int i, TextWriter& to) {
     const int shell = group.members[i];
     if (!is_wanted(shell)) return;
     to << shell + 1;
@@ -122,7 +122,7 @@ void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames&
 /// load on all four sets is applied once. Sides of plane and axisymmetric elements can be loaded by pressure,
 /// so these also get a surface for each edge.
 void write_side_sets(const OutputMesh& mesh, InpElement type, const SetNames& names, TextWriter& out) {
-  std::vector<std::array<int, 4>> elements(mesh.segment_count(), {0, 0, 0, 0});  // from 1; 0 = none
+  std::vector<std::array<int, 4>> elements(mesh.count(1), {0, 0, 0, 0});  // from 1; 0 = none
   int last = -1;
   for (const SegmentSide& side : segment_sides(mesh)) {
     if (side.segment != last) elements[side.segment][side.side] = side.shell + 1;
@@ -226,9 +226,9 @@ void write_text(const OutputMesh& mesh, const WriteOptions& options, const std::
   out << "*HEADING\n" << (like_card ? "Title: " : "") << options.title << '\n';
   if (!comment.empty()) out << "** " << comment << '\n';
   out << "*NODE, NSET=Nall\n";
-  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
+  write_in_order(mesh.nodes().size(), out, [&](int i, TextWriter& to) {
     to << i + 1;
-    for (const double coordinate : mesh.point(static_cast<int>(i))) {
+    for (const double coordinate : mesh.point(i)) {
       to << ", ";
       to.within(coordinate, characters_of_a_number);
     }

@@ -118,8 +118,7 @@ class MedWriter {
 
   Families make_families() const {
     check(MEDfamilyCr(file_, name_.c_str(), "FAMILLE_ZERO", 0, 0, ""), "a family");
-    Families families{std::vector<med_int>(mesh_.nodes().size(), 0),
-                      std::vector<med_int>(mesh_.segment_count(), 0),
+    Families families{std::vector<med_int>(mesh_.nodes().size(), 0), std::vector<med_int>(mesh_.count(1), 0),
                       std::vector<med_int>(mesh_.shell_count(), 0)};
     med_int last_node = 0, last_element = 0;
     for (const int dimension : {0, 2, 1})

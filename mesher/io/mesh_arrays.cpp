@@ -50,11 +50,10 @@ std::vector<MeshArray> mesh_arrays(const Writing& writing) {
 }
 
 void write_numbers(const MeshArray& array, const OutputMesh& mesh, TextWriter& out) {
-  write_in_order(array.of_nodes ? mesh.nodes().size() : mesh.shell_count(), out,
-                 [&](std::size_t i, TextWriter& to) {
-                   array.write(static_cast<int>(i), to);
-                   to << '\n';
-                 });
+  write_in_order(array.of_nodes ? mesh.nodes().size() : mesh.shell_count(), out, [&](int i, TextWriter& to) {
+    array.write(i, to);
+    to << '\n';
+  });
 }
 
 }  // namespace quadrille

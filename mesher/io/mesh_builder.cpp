@@ -106,21 +106,15 @@ void MeshBuilder::unite_repeated() {
   element_places_.clear();
 }
 
-int MeshBuilder::resolve(const FileElement& element, int place) const {
-  const int index = index_of(element.nodes[place]);
-  if (index < 0)
-    throw failure(name_, fmt::format("{}: element {} refers to node {}, which the file does not define",
-                                     name_, element.number, element.nodes[place]));
-  return index;
-}
-
-void MeshBuilder::check(const FileElement& element) const {
-  for (int i = 0; i < element.node_count; ++i) {
-    resolve(element, i);
-    for (int j = 0; j < i; ++j)
-      if (element.nodes[i] == element.nodes[j])
-        throw failure(
-            name_, fmt::format("{}: element {} uses node {} twice", name_, element.number, element.nodes[i]));
+void MeshBuilder::resolve(FileElement& element) const {
+  const auto begin = element.nodes.begin();
+  for (auto node = begin; node != begin + element.node_count; ++node) {
+    const std::int64_t number = std::exchange(*node, index_of(*node));
+    if (*node < 0)
+      throw failure(name_, fmt::format("{}: element {} refers to node {}, which the file does not define",
+                                       name_, element.number, number));
+    if (std::find(begin, node, *node) != node)
+      throw failure(name_, fmt::format("{}: element {} uses node {} twice", name_, element.number, number));
   }
 }
 
@@ -141,13 +135,13 @@ void MeshBuilder::renumber() {
   enum : char { unused, midside, corner };
   std::vector<char> use(points_.size(), unused);
   bool has_curved_triangles = false;
-  for (const FileElement& element : elements_) {
-    check(element);
+  for (FileElement& element : elements_) {
+    resolve(element);
     const int corners = corner_count(element.shape);
     const bool keeps_midsides = mesh_.order == 2 && element.shape != ElementShape::triangle;
     has_curved_triangles |= element.shape == ElementShape::triangle && element.node_count == 6;
     for (int i = 0; i < (keeps_midsides ? element.node_count : corners); ++i) {
-      char& mark = use[resolve(element, i)];
+      char& mark = use[element.nodes[i]];
       mark = std::max<char>(mark, i < corners ? corner : midside);
     }
   }
@@ -162,7 +156,7 @@ void MeshBuilder::renumber() {
 }
 
 void MeshBuilder::append(const FileElement& element) {
-  const auto node = [&](int place) { return kept(element, place); };
+  const auto node = [&](int place) { return new_index_[element.nodes[place]]; };
   switch (element.shape) {
     case ElementShape::point:
       mesh_.corners.push_back({node(0), element.cad});
@@ -203,15 +197,15 @@ namespace {
 class EntityNumbers {
  public:
   /// Registers a combination, to be numbered by finish(). \param cad 0 = none.
-  void add(int cad, int groups) { keys_.try_emplace({cad, groups}, static_cast<int>(keys_.size())); }
+  void add(int cad, int groups) {
+    if (keys_.try_emplace({cad, groups}, 0).second) in_order_.emplace_back(cad, groups);
+  }
 
   void finish() {
-    std::vector<std::pair<int, int>> in_order(keys_.size());
-    for (const auto& [key, place] : keys_) in_order[place] = key;
     int largest = 0;
     std::set<int> taken;
     std::vector<std::pair<int, int>> waiting;
-    for (const auto& key : in_order) {
+    for (const auto& key : in_order_) {
       largest = std::max(largest, key.first);
       if (key == std::pair(0, 0) || (key.first > 0 && taken.insert(key.first).second))
         keys_[key] = key.first;
@@ -226,17 +220,15 @@ class EntityNumbers {
 
  private:
   std::map<std::pair<int, int>, int> keys_;
+  std::vector<std::pair<int, int>> in_order_;  // as they were added
 };
 
 }  // namespace
 
 void MeshBuilder::number_entities() {
-  const auto dimension_of = [](const FileElement& element) {
-    return std::min(static_cast<int>(element.shape), 2);
-  };
   EntityNumbers numbers[3];
   for (FileElement& element : elements_) {
-    const int dimension = dimension_of(element);
+    const int dimension = dimension_of(element.shape);
     if (element.cad == 0 && element.groups != 0) element.cad = number_in_name(element.groups, dimension);
     numbers[dimension].add(element.cad, element.groups);
   }
@@ -254,7 +246,7 @@ void MeshBuilder::number_entities() {
     mesh_.groups.push_back({group.name, key.second, group.number, std::move(members)});
   }
   for (FileElement& element : elements_)
-    element.cad = numbers[dimension_of(element)].of(element.cad, element.groups);
+    element.cad = numbers[dimension_of(element.shape)].of(element.cad, element.groups);
   for (std::size_t node = 0; node < node_groups_.size(); ++node) {
     if (node_groups_[node] == 0 || new_index_[node] < 0) continue;
     const int cad = number_in_name(node_groups_[node], 0);

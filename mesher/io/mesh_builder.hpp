@@ -10,12 +10,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesher/io/element_types.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
-
-/// Shapes of elements that a shell mesh can hold.
-enum class ElementShape { point, line, triangle, quad };
 
 /// An element as it is in the file.
 struct FileElement {
@@ -60,14 +58,13 @@ class MeshBuilder {
 
  private:
   int index_of(std::int64_t number) const;
-  int resolve(const FileElement& element, int place) const;
-  void check(const FileElement& element) const;
+  /// Puts indices in place of the numbers of an element's nodes.
+  void resolve(FileElement& element) const;
   void find_order();
   void renumber();
   void append(const FileElement& element);
   void number_entities();
   int number_in_name(int groups, int dimension) const;
-  int kept(const FileElement& element, int place) const { return new_index_[resolve(element, place)]; }
 
   std::string name_;
   std::vector<Vector3> points_;

@@ -16,26 +16,12 @@ namespace quadrille {
 
 namespace {
 
-struct ElementType {
-  int type;
-  ElementShape shape;
-  int file_nodes;  // nodes in the file
-  int kept_nodes;  // nodes kept: not the middle of nine-node quads
-};
-
-constexpr ElementType element_types[] = {
-    {1, ElementShape::line, 2, 2},   {2, ElementShape::triangle, 3, 3}, {3, ElementShape::quad, 4, 4},
-    {8, ElementShape::line, 3, 3},   {9, ElementShape::triangle, 6, 6}, {10, ElementShape::quad, 9, 8},
-    {15, ElementShape::point, 1, 1}, {16, ElementShape::quad, 8, 8},
-};
-
 bool is_volume(std::int64_t type) {
   return (type >= 4 && type <= 7) || (type >= 11 && type <= 14) || (type >= 17 && type <= 19);
 }
 
 const ElementType& type_of(const TextCursor& cursor, std::int64_t type, std::int64_t element) {
-  for (const ElementType& known : element_types)
-    if (known.type == type) return known;
+  if (const ElementType* known = find_element_type(&ElementType::msh, type)) return *known;
   if (is_volume(type))
     throw cursor.error(
         fmt::format("element {} is a volume (type {}): only surface meshes are read", element, type));
@@ -280,7 +266,7 @@ class MshReader {
       const std::int64_t physical = cursor_.integer("an element's group");
       const std::int64_t entity = cursor_.integer("an element's entity");
       const ElementType& known = type_of(cursor_, type, number);
-      if (cursor_.integer("an element's number of nodes") != known.file_nodes)
+      if (cursor_.integer("an element's number of nodes") != known.nodes)
         throw cursor_.error(fmt::format("element {} has a wrong number of nodes", number));
       add_element(known, number, physical, cad_number(entity));
     }
@@ -289,10 +275,10 @@ class MshReader {
   template <class ReadNode>
   void read_element_nodes(const ElementType& type, FileElement& element, ReadNode read_node) {
     element.shape = type.shape;
-    element.node_count = type.kept_nodes;
-    for (int i = 0; i < type.file_nodes; ++i) {
+    element.node_count = type.kept_nodes();
+    for (int i = 0; i < type.nodes; ++i) {
       const std::int64_t node = read_node();
-      if (i < type.kept_nodes) element.nodes[i] = node;
+      if (i < element.node_count) element.nodes[i] = node;
     }
     builder_.add_element(element);
   }
@@ -314,7 +300,7 @@ class MshReader {
     FileElement element;
     element.number = number;
     element.cad = entity;
-    element.groups = groups_.set_of(std::min(static_cast<int>(known.shape), 2), entity, physical);
+    element.groups = groups_.set_of(dimension_of(known.shape), entity, physical);
     read_element_nodes(known, element, [this] { return cursor_.small("an element's node"); });
   }
 

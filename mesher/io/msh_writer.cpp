@@ -13,21 +13,10 @@ namespace quadrille {
 
 namespace {
 
-constexpr int type_point = 15, type_line = 1, type_line3 = 8, type_triangle = 2, type_quad = 3,
-              type_quad9 = 10, type_quad8 = 16;
-
 int largest_number(const std::vector<CadGroup>& groups) {
   int largest = 0;
   for (const CadGroup& group : groups) largest = std::max(largest, group.number);
   return largest;
-}
-
-/// Gmsh's number for the type of an element. \param dimension 0, 1 or 2.
-int msh_element_type(const ElementNodes& element, int dimension) {
-  if (dimension == 0) return type_point;
-  if (dimension == 1) return element.count == 3 ? type_line3 : type_line;
-  if (element.count == 3) return type_triangle;
-  return element.count == 4 ? type_quad : element.count == 8 ? type_quad8 : type_quad9;
 }
 
 /// Numbers of physical groups. A mesh that was read keeps its numbers. Else the number of a face is its CAD
@@ -115,8 +104,7 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
 void write_periodic(const OutputMesh& mesh, bool version4, TextWriter& out) {
   std::vector<ShellMesh::Match> matches = mesh.matches();
   // Without groups of edges the file has no edges.
-  std::erase_if(matches,
-                [&](const auto& match) { return match.dimension == 1 && mesh.segment_count() == 0; });
+  std::erase_if(matches, [&](const auto& match) { return match.dimension == 1 && mesh.count(1) == 0; });
   if (matches.empty()) return;
   out << "$Periodic\n" << matches.size() << '\n';
   for (const ShellMesh::Match& match : matches) {
@@ -153,14 +141,12 @@ class ElementLines {
 
   /// \param before number of elements in the file before these.
   void write(std::size_t before, TextWriter& out) const {
-    write_in_order(size(), out, [&](std::size_t line, TextWriter& to) {
-      const bool first = line < static_cast<std::size_t>(count_);
-      const auto [i, group] =
-          first ? std::pair(static_cast<int>(line), std::size_t{0}) : repeated_[line - count_];
+    write_in_order(size(), out, [&](int line, TextWriter& to) {
+      const auto [i, group] = line < count_ ? std::pair(line, std::size_t{0}) : repeated_[line - count_];
       const std::span<const int> numbers = physical_.of_entity(dimension_, entity(i));
       const ElementNodes element = mesh_.element_nodes(dimension_, i);
-      to << before + line + 1 << ' ' << msh_element_type(element, dimension_) << " 2 "
-         << (numbers.empty() ? 0 : numbers[group]) << ' ' << entity(i);
+      to << before + line + 1 << ' ' << element.type().msh << " 2 " << (numbers.empty() ? 0 : numbers[group])
+         << ' ' << entity(i);
       write_msh_nodes(mesh_, element, to);
     });
   }
@@ -209,12 +195,8 @@ void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t 
   Eigen::AlignedBox3d box;
   for (const int member : group.members)
     for (const int node : mesh.element_nodes(entities.dimension, member)) box.extend(mesh.position(node));
-  out << entities.tags[index] << ' ';
-  out << box.min();
-  if (entities.dimension > 0) {
-    out << ' ';
-    out << box.max();
-  }
+  out << entities.tags[index] << ' ' << Vector3(box.min());
+  if (entities.dimension > 0) out << ' ' << Vector3(box.max());
   out << ' ' << physical.size();
   for (const int number : physical) out << ' ' << number;
   if (entities.dimension > 0) {
@@ -236,10 +218,8 @@ void write_node_blocks(const OutputMesh& mesh, const std::vector<Entities>& all,
       if (nodes.empty()) continue;
       out << entities.dimension << ' ' << entities.tags[i] << " 0 " << nodes.size() << '\n';
       for (const int number : nodes) out << number << '\n';
-      write_in_order(nodes.size(), out, [&](std::size_t k, TextWriter& to) {
-        to << mesh.point(nodes[k] - 1);
-        to << '\n';
-      });
+      write_in_order(nodes.size(), out,
+                     [&](int k, TextWriter& to) { to << mesh.point(nodes[k] - 1) << '\n'; });
     }
   out << "$EndNodes\n";
 }
@@ -256,8 +236,7 @@ std::vector<ElementBlock> element_blocks(const OutputMesh& mesh, const std::vect
     for (std::size_t i = 0; i < entities.elements.size(); ++i) {
       int last_type = 0;
       for (const int member : entities.elements[i].members) {
-        const ElementNodes element = mesh.element_nodes(entities.dimension, member);
-        const int type = msh_element_type(element, entities.dimension);
+        const int type = mesh.element_nodes(entities.dimension, member).type().msh;
         if (type != last_type) blocks.push_back({entities.dimension, entities.tags[i], type, {}});
         last_type = type;
         blocks.back().members.push_back(member);
@@ -274,7 +253,7 @@ void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& a
   std::size_t number = 0;
   for (const ElementBlock& block : blocks) {
     out << block.dimension << ' ' << block.tag << ' ' << block.type << ' ' << block.members.size() << '\n';
-    write_in_order(block.members.size(), out, [&](std::size_t i, TextWriter& to) {
+    write_in_order(block.members.size(), out, [&](int i, TextWriter& to) {
       to << number + i + 1;
       write_msh_nodes(mesh, mesh.element_nodes(block.dimension, block.members[i]), to);
     });
@@ -288,11 +267,8 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   write_physical_names(mesh, physical, out);
   out << "$Nodes\n" << mesh.nodes().size() << '\n';
-  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
-    to << i + 1 << ' ';
-    to << mesh.point(static_cast<int>(i));
-    to << '\n';
-  });
+  write_in_order(mesh.nodes().size(), out,
+                 [&](int i, TextWriter& to) { to << i + 1 << ' ' << mesh.point(i) << '\n'; });
   const ElementLines kinds[] = {{mesh, physical, 0}, {mesh, physical, 1}, {mesh, physical, 2}};
   out << "$EndNodes\n$Elements\n" << kinds[0].size() + kinds[1].size() + kinds[2].size() << '\n';
   std::size_t before = 0;

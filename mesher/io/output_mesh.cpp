@@ -257,24 +257,24 @@ ElementNodes OutputMesh::shell_nodes(int shell) const {
   return result;
 }
 
-ElementNodes OutputMesh::segment_nodes(int segment) const {
-  const ShellMesh::Segment& side = mesh_.segments[segment];
-  ElementNodes result{{side.nodes[0], side.nodes[1]}, 2};
-  if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
-  return result;
-}
-
 int OutputMesh::count(int dimension) const {
-  return dimension == 2 ? shell_count() : dimension == 1 ? segment_count() : corner_count();
+  if (dimension == 2) return shell_count();
+  if (dimension == 1) return groups_.edges ? static_cast<int>(mesh_.segments.size()) : 0;
+  return groups_.vertices ? static_cast<int>(mesh_.corners.size()) : 0;
 }
 
 int OutputMesh::entity(int dimension, int member) const {
-  return dimension == 2 ? face(member) : dimension == 1 ? edge(member) : vertex(member);
+  if (dimension == 2) return face(member);
+  return dimension == 1 ? mesh_.segments[member].edge : mesh_.corners[member].vertex;
 }
 
 ElementNodes OutputMesh::element_nodes(int dimension, int member) const {
-  if (dimension == 0) return {{corner_node(member)}, 1};
-  return dimension == 1 ? segment_nodes(member) : shell_nodes(member);
+  if (dimension == 2) return shell_nodes(member);
+  if (dimension == 0) return {{corner_node(member)}, 1, 0};
+  const ShellMesh::Segment& side = mesh_.segments[member];
+  ElementNodes result{{side.nodes[0], side.nodes[1]}, 2, 1};
+  if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
+  return result;
 }
 
 std::vector<int> OutputMesh::numbers_of(std::vector<int> shells) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/io/element_types.hpp"
 #include "mesher/mesh/entity_name.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 #include "mesher/options.hpp"
@@ -16,6 +17,8 @@ namespace quadrille {
 struct ElementNodes {
   std::array<int, 9> nodes{};
   int count = 0;
+  int dimension = 2;
+  const ElementType& type() const { return element_type(dimension, count); }
   const int* begin() const { return nodes.data(); }
   const int* end() const { return nodes.data() + count; }
 };
@@ -70,22 +73,17 @@ class OutputMesh {
   int order() const { return mesh_.order; }
   int quad_count() const { return static_cast<int>(mesh_.quads.size()); }
   int shell_count() const { return quad_count() + static_cast<int>(mesh_.triangles.size()); }
-  int segment_count() const { return groups_.edges ? static_cast<int>(mesh_.segments.size()) : 0; }
-  int corner_count() const { return groups_.vertices ? static_cast<int>(mesh_.corners.size()) : 0; }
   bool is_quad(int shell) const { return shell < quad_count(); }
-  /// CAD face of a shell element, edge of a segment, vertex of a corner; 0 = none.
+  /// CAD face of a shell element; 0 = none.
   int face(int shell) const;
-  int edge(int segment) const { return mesh_.segments[segment].edge; }
-  int vertex(int corner) const { return mesh_.corners[corner].vertex; }
   /// The number of faces of the CAD model or, if that is not known, the largest number of a face with
   /// elements.
   int cad_face_count() const;
   int corner_node(int corner) const { return mesh_.corners[corner].node; }
   ElementNodes shell_nodes(int shell) const;
-  /// End nodes, then the midside node at second order.
-  ElementNodes segment_nodes(int segment) const;
 
-  /// The same by dimension: shell elements (2), segments (1) or corners (0).
+  /// The same by dimension, of shell elements (2), segments (1) or corners (0): their number, the CAD face,
+  /// edge or vertex of one (0 = none), and its nodes, of segments the ends before the midside node.
   int count(int dimension) const;
   int entity(int dimension, int member) const;
   ElementNodes element_nodes(int dimension, int member) const;
@@ -139,11 +137,6 @@ class OutputMesh {
   std::array<std::vector<NamedGroup>, 3> named_;
   std::vector<ThicknessGroup> thicknesses_;
 };
-
-/// VTK's cell type of a shell element: VTK_TRIANGLE, VTK_QUAD, VTK_QUADRATIC_QUAD or VTK_BIQUADRATIC_QUAD.
-inline int vtk_cell_type(const ElementNodes& element) {
-  return element.count == 3 ? 5 : element.count == 4 ? 9 : element.count == 8 ? 23 : 28;
-}
 
 /// The name of the array for a set in VTK's formats: the name of the set, with `_` appended if it is one of
 /// our own array names, and with `_` in place of characters that VTK does not escape in XML.

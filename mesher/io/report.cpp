@@ -108,13 +108,6 @@ json faces_to_json(const ShellMesh& mesh) {
   });
 }
 
-/// Node numbers from 1, as in mesh files.
-json off_geometry_to_json(const ShellMesh& mesh) {
-  return listed(mesh.off_geometry, [](const ShellMesh::OffGeometry& off) {
-    return json{{"node", off.node + 1}, {"distance", off.distance}};
-  });
-}
-
 /// The edges that quads cross, and how far they lie from these quads, each of which counts as two triangles:
 /// the farthest of the points that an edge is drawn by; 0 if its faces have no quads.
 json crossed_to_json(const ShellMesh& mesh) {
@@ -158,9 +151,7 @@ json placed_to_json(const ShellMesh& mesh) {
 /// The groups with names of the CAD file or of a solid's faces.
 json extra_groups_to_json(const ShellMesh& mesh) {
   return listed(mesh.extra_groups, [](const ShellMesh::Group& group) {
-    return json{{"name", group.name}, {"entities", listed(group.entities, [&](int number) {
-                                         return entity_name(group.dimension, number);
-                                       })}};
+    return json{{"name", group.name}, {"entities", entity_names(group.dimension, group.entities)}};
   });
 }
 
@@ -192,15 +183,12 @@ json suppressed_to_json(const ShellMesh& mesh) {
 }
 
 json filled_holes_to_json(const ShellMesh& mesh) {
-  const auto names = [](const std::vector<int>& faces) {
-    return listed(faces, [](int face) { return entity_name(2, face); });
-  };
-  return listed(mesh.filled_holes, [&](const ShellMesh::FilledHole& hole) {
+  return listed(mesh.filled_holes, [](const ShellMesh::FilledHole& hole) {
     return json{{"kind", hole.boss ? "boss" : "hole"},
                 {"center", hole.center},
                 {"diameter", hole.diameter},
-                {"in", names(hole.in)},
-                {"faces", names(hole.faces)}};
+                {"in", entity_names(2, hole.in)},
+                {"faces", entity_names(2, hole.faces)}};
   });
 }
 
@@ -222,13 +210,11 @@ json elements_to_json(std::vector<int> indices) {
   return indices;
 }
 
-json kept_to_json(const ShellMesh& mesh) {
-  return listed(mesh.kept, [](const ShellMesh::Kept& feature) {
-    return json{{"name", entity_name(feature.dimension, feature.number)}, {"why", feature.why}};
-  });
-}
-
 }  // namespace
+
+json entity_names(int dimension, const std::vector<int>& numbers) {
+  return listed(numbers, [dimension](int number) { return entity_name(dimension, number); });
+}
 
 MeshMeasures measure(const ShellMesh& mesh) {
   MeshMeasures measures;
@@ -241,6 +227,12 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
                  const std::filesystem::path& input, const std::vector<std::string>& warnings, double scale) {
   const ProcessUsage usage = process_usage();
   const QualitySummary& summary = measures.quality;
+  const auto off_geometry = [](const ShellMesh::OffGeometry& off) {  // nodes numbered as in mesh files
+    return json{{"node", off.node + 1}, {"distance", off.distance}};
+  };
+  const auto kept = [](const ShellMesh::Kept& feature) {
+    return json{{"name", entity_name(feature.dimension, feature.number)}, {"why", feature.why}};
+  };
   return {{"input", input.string()},
           {"scale", scale},
           {"order", mesh.order},
@@ -251,9 +243,9 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"cpu_seconds", usage.cpu_seconds},
           {"peak_bytes", usage.peak_bytes},
           {"faces", faces_to_json(mesh)},
-          {"off_geometry", off_geometry_to_json(mesh)},
+          {"off_geometry", listed(mesh.off_geometry, off_geometry)},
           {"suppressed_features", suppressed_to_json(mesh)},
-          {"kept", kept_to_json(mesh)},
+          {"kept", listed(mesh.kept, kept)},
           {"filled_holes", filled_holes_to_json(mesh)},
           {"crossed_edges", crossed_to_json(mesh)},
           {"groups", extra_groups_to_json(mesh)},

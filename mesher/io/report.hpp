@@ -32,6 +32,9 @@ nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,
                            const std::vector<std::string>& warnings = {}, double scale = 1);
 
+/// The names of faces (dimension 2), edges (1) or vertices (0), as reports list them.
+nlohmann::json entity_names(int dimension, const std::vector<int>& numbers);
+
 /// Writes a report to a file that appears whole or not at all. Throws Error (failure).
 void write_report(const nlohmann::json& report, const std::filesystem::path& path);
 

@@ -18,14 +18,14 @@ using KeyedSegment = std::pair<std::uint64_t, int>;
 /// For each edge, the vertices at the ends of its chain of segments: first positive, last negative.
 std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
   std::unordered_map<int, int> vertex_at;
-  for (int corner = 0; corner < mesh.corner_count(); ++corner)
-    vertex_at.emplace(mesh.corner_node(corner), mesh.vertex(corner));
+  for (int corner = 0; corner < mesh.count(0); ++corner)
+    vertex_at.emplace(mesh.corner_node(corner), mesh.entity(0, corner));
   std::vector<std::vector<int>> ends;
   for (const CadGroup& edge : mesh.entities(1)) {
     ends.emplace_back();
     std::vector<int> from, to;
     for (const int segment : edge.members) {
-      const ElementNodes nodes = mesh.segment_nodes(segment);
+      const ElementNodes nodes = mesh.element_nodes(1, segment);
       from.push_back(nodes.nodes[0]);
       to.push_back(nodes.nodes[1]);
     }
@@ -50,8 +50,8 @@ std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
   std::vector<KeyedSegment> keyed;
   // Most sides end at a node that is on no segment, so this is checked first.
   std::vector<char> on_segment(mesh.nodes().empty() ? 0 : mesh.nodes().back() + 1, 0);
-  for (int segment = 0; segment < mesh.segment_count(); ++segment) {
-    const ElementNodes nodes = mesh.segment_nodes(segment);
+  for (int segment = 0; segment < mesh.count(1); ++segment) {
+    const ElementNodes nodes = mesh.element_nodes(1, segment);
     keyed.emplace_back(side_key(nodes.nodes[0], nodes.nodes[1]), segment);
     for (const int node : nodes) on_segment[node] = 1;
   }
@@ -66,7 +66,7 @@ std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
       const std::uint64_t key = side_key(a, b);
       for (auto at = std::lower_bound(keyed.begin(), keyed.end(), KeyedSegment(key, 0));
            at != keyed.end() && at->first == key; ++at)
-        sides.push_back({at->second, shell, side, mesh.segment_nodes(at->second).nodes[0] == a});
+        sides.push_back({at->second, shell, side, mesh.element_nodes(1, at->second).nodes[0] == a});
     }
   }
   std::stable_sort(sides.begin(), sides.end(),
@@ -79,7 +79,7 @@ EntityBoundaries entity_boundaries(const OutputMesh& mesh) {
   std::unordered_map<int, std::size_t> place;
   for (std::size_t i = 0; i < mesh.entities(2).size(); ++i) place[mesh.entities(2)[i].number] = i;
   for (const SegmentSide& side : segment_sides(mesh)) {
-    const int edge = mesh.edge(side.segment), face = mesh.face(side.shell);
+    const int edge = mesh.entity(1, side.segment), face = mesh.face(side.shell);
     if (edge > 0 && face > 0) boundaries.faces[place[face]].push_back(side.forward ? edge : -edge);
   }
   for (std::vector<int>& edges : boundaries.faces) {

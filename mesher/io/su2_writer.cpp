@@ -25,8 +25,8 @@ int dimension_of(const OutputMesh& mesh) {
   return above <= 1e-9 * across ? 2 : 3;
 }
 
-void write_element(const OutputMesh& mesh, int type, const ElementNodes& element, TextWriter& out) {
-  out << type;
+void write_element(const OutputMesh& mesh, const ElementNodes& element, TextWriter& out) {
+  out << element.type().vtk;
   for (const int node : element) out << ' ' << mesh.number(node) - 1;
   out << '\n';
 }
@@ -40,14 +40,13 @@ std::string marker_name(std::string name) {
 
 /// SU2 expects each line in one marker, so groups whose edges have groups of their own are left out.
 void write_markers(const OutputMesh& mesh, TextWriter& out) {
-  constexpr int line = 3;
   std::vector<NamedGroup> groups = mesh.groups(1);
   std::erase_if(groups, [](const NamedGroup& group) { return group.is_extra; });
   out << "NMARK= " << groups.size() << '\n';
   for (const NamedGroup& group : groups) {
     const std::vector<int> members = mesh.members(1, group);
     out << "MARKER_TAG= " << marker_name(group.name) << "\nMARKER_ELEMS= " << members.size() << '\n';
-    for (const int member : members) write_element(mesh, line, mesh.segment_nodes(member), out);
+    for (const int member : members) write_element(mesh, mesh.element_nodes(1, member), out);
   }
 }
 
@@ -59,17 +58,15 @@ void write_su2(const Writing& writing, TextWriter& out) {
   out << "% " << writing.options.title << "\nNDIME= " << dimension << '\n';
   // Nodes come first: meshio cannot find them after elements.
   out << "NPOIN= " << mesh.nodes().size() << '\n';
-  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
-    const Vector3& point = mesh.point(static_cast<int>(i));
+  write_in_order(mesh.nodes().size(), out, [&](int i, TextWriter& to) {
+    const Vector3& point = mesh.point(i);
     to << point.x() << ' ' << point.y();
     if (dimension == 3) to << ' ' << point.z();
     to << '\n';
   });
   out << "NELEM= " << mesh.shell_count() << '\n';
-  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    const ElementNodes element = mesh.shell_nodes(static_cast<int>(i));
-    write_element(mesh, vtk_cell_type(element), element, to);
-  });
+  write_in_order(mesh.shell_count(), out,
+                 [&](int i, TextWriter& to) { write_element(mesh, mesh.shell_nodes(i), to); });
   write_markers(mesh, out);
 }
 

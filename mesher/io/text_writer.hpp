@@ -117,7 +117,7 @@ template <class Write>
 void write_in_order(std::size_t count, TextWriter& out, Write&& write) {
   constexpr std::size_t at_once = 8192;
   const auto write_range = [&](std::size_t begin, TextWriter& to) {
-    for (std::size_t i = begin; i < std::min(begin + at_once, count); ++i) write(i, to);
+    for (std::size_t i = begin; i < std::min(begin + at_once, count); ++i) write(static_cast<int>(i), to);
   };
   namespace tbb = oneapi::tbb;
   const int threads = tbb::this_task_arena::max_concurrency();

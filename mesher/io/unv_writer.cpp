@@ -12,7 +12,6 @@ namespace quadrille {
 
 namespace {
 
-constexpr int beam = 21, beam_parabolic = 24, shell_triangle = 91, shell_quad = 94, quad_parabolic = 45;
 constexpr int entity_node = 7, entity_element = 8;
 
 void begin_dataset(int number, TextWriter& out) {
@@ -64,18 +63,12 @@ void write_header(TextWriter& out) {
 
 void write_nodes(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2411, out);
-  write_in_order(mesh.nodes().size(), out, [&](std::size_t i, TextWriter& to) {
-    to.padded(static_cast<int>(i) + 1, 10) << "         1         1        11\n";
-    for (const double coordinate : mesh.point(static_cast<int>(i))) to.scientific(coordinate, 25);
+  write_in_order(mesh.nodes().size(), out, [&](int i, TextWriter& to) {
+    to.padded(i + 1, 10) << "         1         1        11\n";
+    for (const double coordinate : mesh.point(i)) to.scientific(coordinate, 25);
     to << '\n';
   });
   end_dataset(out);
-}
-
-int descriptor(const ElementNodes& element, bool line) {
-  if (line) return element.count == 3 ? beam_parabolic : beam;
-  if (element.count == 3) return shell_triangle;
-  return element.count == 8 ? quad_parabolic : shell_quad;
 }
 
 /// The property number is the CAD number, for readers that use it. Second-order elements list their nodes
@@ -85,7 +78,7 @@ void write_element(const OutputMesh& mesh, int dimension, int member, TextWriter
   const bool line = dimension == 1;
   const int number = member + 1 + (line ? mesh.shell_count() : 0), cad = mesh.entity(dimension, member);
   Fields fields(out);
-  for (const int value : {number, descriptor(element, line), cad, 1, 7, element.count}) fields.add(value);
+  for (const int value : {number, element.type().unv, cad, 1, 7, element.count}) fields.add(value);
   fields.end();
   if (line) out << "         0         1         1\n";
   const int corners = line ? 2 : element.count == 3 ? 3 : 4;
@@ -99,9 +92,8 @@ void write_element(const OutputMesh& mesh, int dimension, int member, TextWriter
 void write_elements(const OutputMesh& mesh, TextWriter& out) {
   begin_dataset(2412, out);
   for (const int dimension : {2, 1})
-    write_in_order(mesh.count(dimension), out, [&](std::size_t i, TextWriter& to) {
-      write_element(mesh, dimension, static_cast<int>(i), to);
-    });
+    write_in_order(mesh.count(dimension), out,
+                   [&](int i, TextWriter& to) { write_element(mesh, dimension, i, to); });
   end_dataset(out);
 }
 

@@ -23,6 +23,7 @@
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <numeric>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/module_loader.hpp"
@@ -165,30 +166,15 @@ class CellImport {
     switch (type) {
       case VTK_EMPTY_CELL:
         return;
-      case VTK_VERTEX:
-        return add(cell, ElementShape::point, {0});
-      case VTK_LINE:
-        return add(cell, ElementShape::line, {0, 1});
-      case VTK_QUADRATIC_EDGE:
-        return add(cell, ElementShape::line, {0, 1, 2});
       case VTK_POLY_LINE:
         for (int i = 1; i < count; ++i) add(cell, ElementShape::line, {i - 1, i});
         return;
-      case VTK_TRIANGLE:
-        return add(cell, ElementShape::triangle, {0, 1, 2});
       case VTK_TRIANGLE_STRIP:
         for (int i = 2; i < count; ++i)
           add(cell, ElementShape::triangle, {i - 2, i % 2 == 0 ? i - 1 : i, i % 2 == 0 ? i : i - 1});
         return;
-      case VTK_QUADRATIC_TRIANGLE:
-        return add(cell, ElementShape::triangle, {0, 1, 2, 3, 4, 5});
       case VTK_PIXEL:
         return add(cell, ElementShape::quad, {0, 1, 3, 2});
-      case VTK_QUAD:
-        return add(cell, ElementShape::quad, {0, 1, 2, 3});
-      case VTK_QUADRATIC_QUAD:
-      case VTK_BIQUADRATIC_QUAD:
-        return add(cell, ElementShape::quad, {0, 1, 2, 3, 4, 5, 6, 7});
       case VTK_POLYGON:
         if (count == 3) return add(cell, ElementShape::triangle, {0, 1, 2});
         if (count == 4) return add(cell, ElementShape::quad, {0, 1, 2, 3});
@@ -197,6 +183,11 @@ class CellImport {
                                   "quads are read",
                                   cell, count));
       default:
+        if (const ElementType* known = find_element_type(&ElementType::vtk, type)) {
+          std::vector<int> places(known->kept_nodes());
+          std::iota(places.begin(), places.end(), 0);
+          return add(cell, known->shape, places);
+        }
         throw failure(
             "", fmt::format("cell {} (counted from 0) is of VTK's type {}: only triangles, quads, lines "
                             "and points are read",
@@ -205,11 +196,11 @@ class CellImport {
   }
 
  private:
-  void add(vtkIdType cell, ElementShape shape, std::initializer_list<int> places) {
+  void add(vtkIdType cell, ElementShape shape, const std::vector<int>& places) {
     FileElement element;
     element.number = cell + 1;
     element.shape = shape;
-    if (vtkDataArray* array = arrays_[std::min(static_cast<int>(shape), 2)]; array != nullptr) {
+    if (vtkDataArray* array = arrays_[dimension_of(shape)]; array != nullptr) {
       const double number = array->GetComponent(cell, 0);
       if (number > 0 && number <= std::numeric_limits<int>::max()) element.cad = static_cast<int>(number);
       // VTK counts solids from 0.

@@ -40,7 +40,7 @@ class GridMaker {
   vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
     for (const int dimension : {2, 1, 0})
       for (int i = 0; i < mesh_.count(dimension); ++i) {
-        add(mesh_.element_nodes(dimension, i), dimension, mesh_.entity(dimension, i));
+        add(mesh_.element_nodes(dimension, i), mesh_.entity(dimension, i));
         // Lines and points have no q: colored by q, they get the color of "not a number".
         const bool shell = dimension == 2;
         q_->InsertNextValue(!shell             ? std::numeric_limits<double>::quiet_NaN()
@@ -68,16 +68,12 @@ class GridMaker {
     return set;
   }
 
-  void add(const ElementNodes& nodes, int dimension, int number) {
-    const int type = dimension == 2     ? vtk_cell_type(nodes)
-                     : dimension == 0   ? VTK_VERTEX
-                     : nodes.count == 3 ? VTK_QUADRATIC_EDGE
-                                        : VTK_LINE;
+  void add(const ElementNodes& nodes, int number) {
     std::array<vtkIdType, 9> ids;
     std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](int node) { return mesh_.number(node) - 1; });
     cells_->InsertNextCell(nodes.count, ids.data());
-    types_->InsertNextValue(static_cast<unsigned char>(type));
-    for (int i = 0; i < 3; ++i) cad_[i]->InsertNextValue(i == dimension ? number : 0);
+    types_->InsertNextValue(static_cast<unsigned char>(nodes.type().vtk));
+    for (int i = 0; i < 3; ++i) cad_[i]->InsertNextValue(i == nodes.dimension ? number : 0);
   }
 
   vtkNew<vtkPoints> points() const {

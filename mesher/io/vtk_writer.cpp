@@ -14,8 +14,8 @@ namespace {
 /// Writes one line per shell element.
 template <class Write>
 void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
-  write_in_order(mesh.shell_count(), out, [&](std::size_t i, TextWriter& to) {
-    write(mesh.shell_nodes(static_cast<int>(i)), to);
+  write_in_order(mesh.shell_count(), out, [&](int i, TextWriter& to) {
+    write(mesh.shell_nodes(i), to);
     to << '\n';
   });
 }
@@ -53,8 +53,7 @@ void write_vtk(const Writing& writing, TextWriter& out) {
   out << "# vtk DataFile Version 2.0\n"
       << std::string_view(writing.options.title).substr(0, longest_title)
       << "\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << nodes << " double\n";
-  write_in_order(nodes, out,
-                 [&](std::size_t i, TextWriter& to) { to << mesh.point(static_cast<int>(i)) << '\n'; });
+  write_in_order(nodes, out, [&](int i, TextWriter& to) { to << mesh.point(i) << '\n'; });
   std::size_t numbers = 0;
   for (int i = 0; i < mesh.shell_count(); ++i) numbers += 1 + mesh.shell_nodes(i).count;
   out << "CELLS " << mesh.shell_count() << ' ' << numbers << '\n';
@@ -63,7 +62,7 @@ void write_vtk(const Writing& writing, TextWriter& out) {
     for (const int node : element) to << ' ' << mesh.number(node) - 1;
   });
   out << "CELL_TYPES " << mesh.shell_count() << '\n';
-  write_lines(mesh, out, [](const ElementNodes& element, TextWriter& to) { to << vtk_cell_type(element); });
+  write_lines(mesh, out, [](const ElementNodes& element, TextWriter& to) { to << element.type().vtk; });
   write_arrays(writing, out);
 }
 

@@ -12,24 +12,6 @@ namespace quadrille {
 
 namespace {
 
-struct Topology {
-  const char* name;
-  int code;  ///< before the nodes of each element, where elements of several kinds are mixed
-};
-
-Topology topology_of(int nodes) {
-  switch (nodes) {
-    case 3:
-      return {"Triangle", 0x4};
-    case 4:
-      return {"Quadrilateral", 0x5};
-    case 8:
-      return {"Quadrilateral_8", 0x25};
-    default:
-      return {"Quadrilateral_9", 0x23};
-  }
-}
-
 /// Writes a DataItem, whose numbers `write` writes. \param type with its precision, as attributes
 template <class Write>
 void write_item(const char* type, const std::string& dimensions, TextWriter& out, Write write) {
@@ -51,12 +33,12 @@ void write_topology(const OutputMesh& mesh, TextWriter& out) {
     numbers += 1 + nodes;
   }
   const bool mixed = least < most;
-  out << "<Topology TopologyType=\"" << (mixed ? "Mixed" : topology_of(most).name) << "\" NumberOfElements=\""
-      << count << "\">\n";
+  out << "<Topology TopologyType=\"" << (mixed ? "Mixed" : element_type(2, most).xdmf)
+      << "\" NumberOfElements=\"" << count << "\">\n";
   write_item(integer, mixed ? std::to_string(numbers) : fmt::format("{} {}", count, most), out, [&] {
-    write_in_order(count, out, [&](std::size_t i, TextWriter& to) {
-      const ElementNodes element = mesh.shell_nodes(static_cast<int>(i));
-      if (mixed) to << topology_of(element.count).code << ' ';
+    write_in_order(count, out, [&](int i, TextWriter& to) {
+      const ElementNodes element = mesh.shell_nodes(i);
+      if (mixed) to << element.type().xdmf_code << ' ';
       for (const int node : element) to << mesh.number(node) - 1 << ' ';
       to << '\n';
     });
@@ -74,8 +56,7 @@ void write_xdmf(const Writing& writing, TextWriter& out) {
   write_topology(mesh, out);
   out << "<Geometry GeometryType=\"XYZ\">\n";
   write_item(real, fmt::format("{} 3", nodes), out, [&] {
-    write_in_order(nodes, out,
-                   [&](std::size_t i, TextWriter& to) { to << mesh.point(static_cast<int>(i)) << '\n'; });
+    write_in_order(nodes, out, [&](int i, TextWriter& to) { to << mesh.point(i) << '\n'; });
   });
   out << "</Geometry>\n";
   for (const MeshArray& array : mesh_arrays(writing)) {

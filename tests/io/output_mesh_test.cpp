@@ -54,7 +54,7 @@ TEST(OutputMesh, SortsElementsByTheirEntities) {
   GroupKinds faces_only;
   faces_only.edges = faces_only.vertices = false;
   const OutputMesh few(mesh, faces_only);
-  EXPECT_EQ(few.segment_count() + few.corner_count(), 0);
+  EXPECT_EQ(few.count(1) + few.count(0), 0);
 }
 
 TEST(OutputMesh, PutsTheNinthNodeInTheMiddleOfTheElement) {
