@@ -10,7 +10,6 @@
 #include "geometry/base/atomic_file.hpp"
 #include "mesher/adapt/adapt.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {

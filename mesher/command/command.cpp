@@ -112,30 +112,38 @@ void require_usable(const CommandFiles& files) {
     for (std::size_t k = 0; k < i; ++k) require_different(all[k], all[i]);
 }
 
-CadModel read_model(const std::filesystem::path& file, const Settings& settings, std::string_view next,
-                    ExecutionContext& context, CancelOnSignal& cancel) {
-  const StageTimer timer(context, Stage::read);
-  report_crashes(file, "reading");
-  cancel.reading(file, settings.read_time_limit);
-  CadModel model = joined(settings, CadModel::read(file));
-  cancel.reading_is_done();
-  report_crashes(file, next);
+Work::Work(const RunArguments& arguments, const std::vector<Stage>& stages, bool partial)
+    : display(arguments.quiet),
+      context(arguments.settings.threads,
+              [this](std::string_view stage, double fraction) { return display.show(stage, fraction); }),
+      cancel(context, arguments.settings.time_limit, partial) {
+  context.expect(stages);
+  if (arguments.end_with_input) end_with_input();
+}
+
+CadModel read_model(const RunArguments& arguments, std::string_view next, Work& work) {
+  const StageTimer timer(work.context, Stage::read);
+  report_crashes(arguments.input, "reading");
+  work.cancel.reading(arguments.input, arguments.settings.read_time_limit);
+  CadModel model = joined(arguments.settings, CadModel::read(arguments.input));
+  work.cancel.reading_is_done();
+  report_crashes(arguments.input, next);
   return model;
 }
 
-void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
-                   ExecutionContext& context, CancelOnSignal& cancel) {
-  const StageTimer timer(context, Stage::write);
-  WriteOptions options = settings.write;
-  options.threads = settings.threads;
-  options.title = fmt::format("Quadrille {}: {}", version(), files.input.filename().string());
-  const double count = static_cast<double>(files.outputs.size());
-  for (std::size_t i = 0; i < files.outputs.size(); ++i) {
-    context.report(Stage::write, static_cast<double>(i) / count);
-    write_mesh(mesh, files.outputs[i], options);
-    cancel.wrote(files.outputs[i]);
+void write_outputs(const ShellMesh& mesh, const RunArguments& arguments, Work& work) {
+  const StageTimer timer(work.context, Stage::write);
+  WriteOptions options = arguments.settings.write;
+  options.threads = arguments.settings.threads;
+  options.title = fmt::format("Quadrille {}: {}", version(), arguments.input.filename().string());
+  const double count = static_cast<double>(arguments.outputs.size());
+  for (std::size_t i = 0; i < arguments.outputs.size(); ++i) {
+    work.context.report(Stage::write, static_cast<double>(i) / count);
+    write_mesh(mesh, arguments.outputs[i], options);
+    work.cancel.wrote(arguments.outputs[i]);
   }
-  if (!files.picture.empty()) draw_apart(files.picture, context, [&] { write_picture(mesh, files.picture); });
+  const std::filesystem::path& picture = arguments.picture;
+  if (!picture.empty()) draw_apart(picture, work.context, [&] { write_picture(mesh, picture); });
 }
 
 }  // namespace quadrille::command

@@ -14,8 +14,8 @@
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/file_access.hpp"
+#include "mesher/command/setting_options.hpp"
 #include "mesher/mesh/mesh_types.hpp"
-#include "mesher/settings.hpp"
 
 namespace quadrille::command {
 
@@ -97,10 +97,6 @@ class ProgressDisplay {
 
   /// Shows a stage and the fraction done. Always returns true: it never cancels.
   bool show(std::string_view stage, double fraction);
-  /// show(), for a context that does not outlive the display.
-  auto reporter() {
-    return [this](std::string_view stage, double fraction) { return show(stage, fraction); };
-  }
 
  private:
   void draw_bar(std::string_view stage, int percent);
@@ -142,23 +138,25 @@ class CancelOnSignal {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// The work of a command: the progress that it shows, and what ends it. Ends with standard input if the
+/// arguments say so.
+struct Work {
+  /// \param stages that it has \param partial as in CancelOnSignal
+  explicit Work(const RunArguments& arguments, const std::vector<Stage>& stages = {}, bool partial = false);
+
+  ProgressDisplay display;
+  ExecutionContext context;
+  CancelOnSignal cancel;
+};
+
 /// Reads a CAD file within the settings' limit on reading and joins its parts as they say. \param next what
 /// is done with the file afterwards, as in report_crashes().
-CadModel read_model(const std::filesystem::path& file, const Settings& settings, std::string_view next,
-                    ExecutionContext& context, CancelOnSignal& cancel);
+CadModel read_model(const RunArguments& arguments, std::string_view next, Work& work);
 
 /// For the message of an ended run: ", and nothing was written", or the files that were written before.
 std::string left_behind();
 
-/// What a mesh is made from and written to.
-struct MeshFiles {
-  const std::filesystem::path& input;
-  const std::vector<std::filesystem::path>& outputs;
-  const std::filesystem::path& picture;  ///< empty = none
-};
-
 /// Writes the mesh files, titled with the version and the input's name, and draws the picture.
-void write_outputs(const ShellMesh& mesh, const MeshFiles& files, const Settings& settings,
-                   ExecutionContext& context, CancelOnSignal& cancel);
+void write_outputs(const ShellMesh& mesh, const RunArguments& arguments, Work& work);
 
 }  // namespace quadrille::command

@@ -10,7 +10,6 @@
 #include "geometry/surfaces/contacts.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/mesh/entity_name.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -86,23 +85,23 @@ std::string features(const CadModel& model, const MeshOptions& options, Executio
 
 void add_info_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "show the contents of a CAD model and suitable sizes");
-  auto input = std::make_shared<std::filesystem::path>();
-  auto limits = std::make_shared<GivenSettings>();
-  command->add_option("IN", *input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
+  auto arguments = std::make_shared<RunArguments>();
+  arguments->quiet = true;
+  command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   add_settings(
-      *command, *limits,
+      *command, *arguments,
       {"imprint", "sew", "read_time_limit", "time_limit", "size", "size_min", "reach", "keep", "fill_holes"});
   auto with_features = std::make_shared<bool>(false);
   command
       ->add_flag("--features", *with_features,
                  "list the small features that a mesh of --size suppresses, and those that it keeps and why")
       ->needs("--size");
-  command->callback([input, limits, with_features] {
-    require_readable(*input);
-    ExecutionContext context;
-    CancelOnSignal cancel(context, limits->settings.time_limit);
-    const CadModel model = read_model(*input, limits->settings, "measuring", context, cancel);
-    print(*with_features ? features(model, limits->settings.mesh, context) : describe(model, context));
+  command->callback([arguments, with_features] {
+    require_readable(arguments->input);
+    Work work(*arguments);
+    const CadModel model = read_model(*arguments, "measuring", work);
+    print(*with_features ? features(model, arguments->settings.mesh, work.context)
+                         : describe(model, work.context));
   });
 }
 

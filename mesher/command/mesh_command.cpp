@@ -15,7 +15,6 @@
 #include "geometry/surfaces/contacts.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/midsurface_writer.hpp"
 #include "mesher/io/report.hpp"
@@ -30,12 +29,10 @@ namespace quadrille::command {
 
 namespace {
 
-struct MeshArguments : GivenSettings {
-  std::filesystem::path input;
-  std::vector<std::filesystem::path> outputs;
-  std::filesystem::path write_size_field, report, picture;
+struct MeshArguments : RunArguments {
+  std::filesystem::path write_size_field;
   LimitsOption limits;
-  bool thin = false, join = false, quiet = false, end_with_input = false;
+  bool thin = false, join = false;
 };
 
 void check_files(const MeshArguments& arguments) {
@@ -145,12 +142,6 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
   });
 }
 
-nlohmann::json names(int dimension, const std::vector<int>& numbers) {
-  nlohmann::json result = nlohmann::json::array();
-  for (const int number : numbers) result.push_back(entity_name(dimension, number));
-  return result;
-}
-
 /// The settings against coincident nodes that hold already.
 std::set<std::string_view> tried_settings(const Settings& settings) {
   std::set<std::string_view> tried;
@@ -164,14 +155,15 @@ std::set<std::string_view> tried_settings(const Settings& settings) {
 nlohmann::json coincident_to_json(const Measured& measured, const std::set<std::string_view>& tried) {
   const Coincidences& found = measured.coincidences;
   nlohmann::json touching = nlohmann::json::array();
-  for (const auto& [face, other] : measured.contacts.faces) touching.push_back(names(2, {face, other}));
+  for (const auto& [face, other] : measured.contacts.faces)
+    touching.push_back(entity_names(2, {face, other}));
   const std::string_view setting =
       measured.contacts.faces.empty() ? found.remedy() : measured.contacts.remedy();
   const std::string remedy = tried.count(setting) > 0 ? "" : option_of(setting);
   return {{"nodes", found.nodes},
           {"quads", found.quads},
-          {"free_edges", names(1, found.free_edges)},
-          {"faces", names(2, found.faces)},
+          {"free_edges", entity_names(1, found.free_edges)},
+          {"faces", entity_names(2, found.faces)},
           {"touching_faces", touching},
           {"remedy", remedy.empty() ? nlohmann::json() : nlohmann::json(remedy)}};
 }
@@ -181,7 +173,7 @@ nlohmann::json imprinted_to_json(const CadModel& model) {
   nlohmann::json result = nlohmann::json::object();
   const auto add = [&](int dimension, const std::vector<std::vector<int>>& pieces) {
     for (std::size_t i = 0; i < pieces.size(); ++i)
-      result[entity_name(dimension, static_cast<int>(i) + 1)] = names(dimension, pieces[i]);
+      result[entity_name(dimension, static_cast<int>(i) + 1)] = entity_names(dimension, pieces[i]);
   };
   add(2, model.pieces());
   add(1, model.edge_pieces());
@@ -231,7 +223,7 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
                                         arguments.settings.write.scale);
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
-    if (meshed.middle) report["skins"] = {{"turned_over", names(2, measured.bad_skins)}};
+    if (meshed.middle) report["skins"] = {{"turned_over", entity_names(2, measured.bad_skins)}};
     if (measured.volumes)
       report["volume"] = {{"cad", measured.volumes->cad}, {"mesh", measured.volumes->mesh}};
     report["coincident"] = coincident_to_json(measured, tried);
@@ -257,16 +249,13 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 void run(const MeshArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
-  ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(settings.threads, display.reporter());
   std::vector<Stage> stages{Stage::read,  Stage::size,     Stage::sample, Stage::mesh,
                             Stage::slide, Stage::assemble, Stage::write};
   if (arguments.thin) stages.insert(stages.begin() + 1, Stage::midsurface);
-  context.expect(stages);
-  CancelOnSignal cancel(context, settings.time_limit, settings.mesh.partial);
-  if (arguments.end_with_input) end_with_input();
+  Work work(arguments, stages, settings.mesh.partial);
+  ExecutionContext& context = work.context;
   arguments.limits.check();  // may wait, if the file is a pipe
-  const CadModel source = read_model(arguments.input, settings, "meshing", context, cancel);
+  const CadModel source = read_model(arguments, "meshing", work);
   const std::optional<MidSurface> middle = middle_of(source, arguments, context);
   const CadModel& model = middle ? middle->model : source;
   context.check();
@@ -286,8 +275,7 @@ void run(const MeshArguments& arguments) {
   context.check();
   std::future<Measured> measured;
   if (is_told) measured = start_to_measure(result, model, !arguments.report.empty(), settings.threads);
-  write_outputs(result, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
-                cancel);
+  write_outputs(result, arguments, work);
   list_left_out(result);
   if (measured.valid()) tell_quality(result, measured.get(), {model, middle, sizes}, arguments, context);
   // Last, so that a failing mesh has been written and can be inspected.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/quadrille.hpp"
 
@@ -11,11 +10,8 @@ namespace quadrille::command {
 
 namespace {
 
-struct Arguments : GivenSettings {
-  std::filesystem::path input;
-  std::vector<std::filesystem::path> outputs;
+struct Arguments : RunArguments {
   MidSurfaceOptions options;
-  bool quiet = false, end_with_input = false;
 };
 
 void run(const Arguments& arguments) {
@@ -25,18 +21,13 @@ void run(const Arguments& arguments) {
           "-o", fmt::format("{}: a middle surface is written as .brep, .step or .json", output.string()));
   }
   require_usable({{{"IN", arguments.input}}, with_outputs(arguments.outputs, {})});
-  ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(1, display.reporter());
-  context.expect({Stage::read, Stage::midsurface});
-  CancelOnSignal cancel(context, arguments.settings.time_limit);
-  if (arguments.end_with_input) end_with_input();
-  const CadModel model =
-      read_model(arguments.input, arguments.settings, "finding the middle surface of", context, cancel);
-  const MidSurface middle = midsurface(model, arguments.options, context);
-  context.check();
+  Work work(arguments, {Stage::read, Stage::midsurface});
+  const CadModel model = read_model(arguments, "finding the middle surface of", work);
+  const MidSurface middle = midsurface(model, arguments.options, work.context);
+  work.context.check();
   for (const std::filesystem::path& output : arguments.outputs) {
     write_midsurface(middle, output);
-    cancel.wrote(output);
+    work.cancel.wrote(output);
   }
   for (const std::string& warning : middle.warnings) say("quadrille: {}", warning);
   for (const std::string& problem : middle.problems) say("quadrille: {}", problem);
@@ -49,6 +40,7 @@ void add_midsurface_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "midsurface", "turn a thin solid into the surface in its middle, with its thickness");
   auto arguments = std::make_shared<Arguments>();
+  arguments->settings.threads = 1;
   command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
   command
       ->add_option("-o,--output", arguments->outputs,

@@ -4,7 +4,6 @@
 
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/quadrille.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "geometry/base/text_parts.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/command/surface_input.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
@@ -19,11 +18,10 @@ namespace quadrille::command {
 
 namespace {
 
-struct RecombineArguments {
-  std::filesystem::path input, output, report;
+struct RecombineArguments : RunArguments {
+  std::filesystem::path output;
   std::uint64_t seed = 1;
-  GivenSettings options;
-  bool no_improve = false, quiet = false;
+  bool no_improve = false;
   std::optional<double> merge, feature_angle;
 };
 
@@ -31,10 +29,8 @@ void run(const RecombineArguments& arguments) {
   check_format(arguments.output, 4);
   require_usable({{{"TRI", arguments.input}}, {{"-o", arguments.output}, {"--report", arguments.report}}});
   const std::string name = arguments.input.string();
-  ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.options.settings.threads, display.reporter());
-  context.expect({Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
-  const CancelOnSignal cancel(context);
+  Work work(arguments, {Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
+  ExecutionContext& context = work.context;
   ShellMesh input;
   std::vector<std::string> notes;
   {
@@ -48,27 +44,21 @@ void run(const RecombineArguments& arguments) {
   options.recombine.method = arguments.no_improve ? Method::paper : Method::quality;
   options.recombine.seed = arguments.seed;
   context.report(Stage::color, 0);
-  const ShellMesh result = [&] {
-    try {
-      return quads_from_triangles(input, options, notes, context);
-    } catch (const Error& error) {
-      if (error.kind() != Error::Kind::failure) throw;
-      throw named_by_file(error, input, name);
-    }
-  }();
+  const ShellMesh result =
+      made_from(input, arguments.input, [&] { return quads_from_triangles(input, options, notes, context); });
   if (result.quads.empty())
     throw failure(name, fmt::format("{}: no quad can be made: no two of its triangles share a side in one "
                                     "face or property (--merge merges nodes that lie close together)",
                                     name));
   {
     const StageTimer timer(context, Stage::write);
-    write_mesh(result, arguments.output, arguments.options.settings.write);
+    write_mesh(result, arguments.output, arguments.settings.write);
   }
   const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
-    write_report(make_report(result, measures, context, arguments.input, notes,
-                             arguments.options.settings.write.scale),
-                 arguments.report);
+    write_report(
+        make_report(result, measures, context, arguments.input, notes, arguments.settings.write.scale),
+        arguments.report);
   for (const std::string& note : notes) say("{}: {}", name, note);
   if (!arguments.quiet) print(quality_table(measures.quality));
 }
@@ -96,7 +86,7 @@ void add_recombine_command(CLI::App& app) {
   add_surface_options(*command, arguments->feature_angle, arguments->merge,
                       "on their common side is kept as an edge; 0 = none");
   command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  add_settings(*command, arguments->options, {"threads", "msh_version", "element", "scale", "groups"});
+  add_settings(*command, *arguments, {"threads", "msh_version", "element", "scale", "groups"});
   command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
   command->callback([arguments] { run(*arguments); });
 }

@@ -9,7 +9,6 @@
 #include "geometry/base/threads.hpp"
 #include "mesher/command/command.hpp"
 #include "mesher/command/limits_option.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/command/surface_input.hpp"
 #include "mesher/command/tables.hpp"
 #include "mesher/io/report.hpp"
@@ -19,13 +18,9 @@ namespace quadrille::command {
 
 namespace {
 
-struct RemeshArguments : GivenSettings {
-  std::filesystem::path input;
-  std::vector<std::filesystem::path> outputs;
-  std::filesystem::path report, picture;
+struct RemeshArguments : RunArguments {
   std::optional<double> merge, feature_angle;
   LimitsOption limits;
-  bool quiet = false, end_with_input = false;
 };
 
 void check_files(const RemeshArguments& arguments) {
@@ -72,12 +67,9 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 
 void run(const RemeshArguments& arguments) {
   check_files(arguments);
-  ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(arguments.settings.threads, display.reporter());
-  context.expect(
-      {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
-  CancelOnSignal cancel(context, arguments.settings.time_limit);
-  if (arguments.end_with_input) end_with_input();
+  Work work(arguments,
+            {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
+  ExecutionContext& context = work.context;
   arguments.limits.check();  // may wait, if the file is a pipe
   std::vector<std::string> notes;
   context.report(Stage::read, 0);
@@ -92,16 +84,9 @@ void run(const RemeshArguments& arguments) {
   options.merge = arguments.merge.value_or(-1);
   options.feature_angle = arguments.feature_angle.value_or(usual_feature_angle(arguments.input, input));
   RemeshFidelity fidelity;
-  const ShellMesh mesh = [&] {
-    try {
-      return remesh(input, options, &fidelity, notes, context);
-    } catch (const Error& error) {
-      if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
-      throw named_by_file(error, input, arguments.input.string());
-    }
-  }();
-  write_outputs(mesh, {arguments.input, arguments.outputs, arguments.picture}, arguments.settings, context,
-                cancel);
+  const ShellMesh mesh =
+      made_from(input, arguments.input, [&] { return remesh(input, options, &fidelity, notes, context); });
+  write_outputs(mesh, arguments, work);
   tell(mesh, fidelity, notes, arguments, context);
   // Last, so that a failing mesh has been written and can be inspected.
   arguments.limits.hold(arguments.outputs.front(), mesh);

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"
 

@@ -19,6 +19,13 @@ struct GivenSettings {
   std::set<std::string_view> given;  ///< names of the settings that were given
 };
 
+/// What a command is given that turns one file into others.
+struct RunArguments : GivenSettings {
+  std::filesystem::path input, report, picture;  ///< the last two empty = none
+  std::vector<std::filesystem::path> outputs;
+  bool quiet = false, end_with_input = false;
+};
+
 /// Adds an option for each setting of the table, or only for those in `names`. `target` must live as long as
 /// the command. Wrong values throw Error (usage) while the arguments are parsed.
 void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names = {});

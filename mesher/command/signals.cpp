@@ -28,7 +28,6 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/isolated_reading.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
 

@@ -17,7 +17,6 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/command/command.hpp"
-#include "mesher/command/setting_options.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille::command {
@@ -26,10 +25,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-struct SizesArguments : GivenSettings {
-  std::filesystem::path input, picture, write_size_field, report;
-  std::vector<std::filesystem::path> outputs;
-  bool quiet = false, end_with_input = false;
+struct SizesArguments : RunArguments {
+  std::filesystem::path write_size_field;
   bool count_only = false;
   double wanted_quads = 0;  // 0 = the size is given
 };
@@ -112,20 +109,19 @@ std::string table_of(const SizeMap& map) {
   return text;
 }
 
-void write_outputs(const SizeMap& map, const SizesArguments& arguments, ExecutionContext& context,
-                   CancelOnSignal& cancel) {
-  const StageTimer timer(context, Stage::write);
+void write_outputs(const SizeMap& map, const SizesArguments& arguments, Work& work) {
+  const StageTimer timer(work.context, Stage::write);
   for (const std::filesystem::path& output : arguments.outputs) {
-    context.report(Stage::write, 0);
+    work.context.report(Stage::write, 0);
     if (lower_ending(output) == ".vtu")
       write_sizes_vtu(map, output);
     else
       write_file(output, all_of(map).dump() + "\n");
-    cancel.wrote(output);
+    work.cancel.wrote(output);
   }
   if (!arguments.report.empty()) write_file(arguments.report, summary_of(map).dump(2) + "\n");
   if (!arguments.picture.empty())
-    draw_apart(arguments.picture, context, [&] { write_size_picture(map, arguments.picture); });
+    draw_apart(arguments.picture, work.context, [&] { write_size_picture(map, arguments.picture); });
 }
 
 /// Counts the quads that each face would get, at the size that gives the wanted number if there is one.
@@ -153,12 +149,9 @@ void count(const CadModel& model, MeshOptions options, const SizesArguments& arg
 void run(const SizesArguments& arguments) {
   check_files(arguments);
   Settings settings = arguments.settings;
-  ProgressDisplay display(arguments.quiet);
-  ExecutionContext context(settings.threads, display.reporter());
-  context.expect({Stage::read, Stage::size, Stage::write});
-  CancelOnSignal cancel(context, settings.time_limit);
-  if (arguments.end_with_input) end_with_input();
-  const CadModel model = read_model(arguments.input, settings, "measuring", context, cancel);
+  Work work(arguments, {Stage::read, Stage::size, Stage::write});
+  ExecutionContext& context = work.context;
+  const CadModel model = read_model(arguments, "measuring", work);
   context.check();
   settings = with_pieces(settings, model);
   check(settings, model);
@@ -166,7 +159,7 @@ void run(const SizesArguments& arguments) {
   if (arguments.count_only) return count(model, options, arguments, context);
   options.write_size_field = arguments.write_size_field;
   const SizeMap map = size_map(model, options, context);
-  write_outputs(map, arguments, context, cancel);
+  write_outputs(map, arguments, work);
   for (const int face : map.missing)
     say("warning: Face{} is not shown: OpenCASCADE cannot triangulate it", face);
   if (!arguments.quiet) print(table_of(map));

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "geometry/base/error.hpp"
+#include "geometry/base/execution_context.hpp"
 #include "geometry/base/file_ending.hpp"
 #include "mesher/command/setting_options.hpp"
 
@@ -32,13 +34,18 @@ void add_surface_options(CLI::App& command, std::optional<double>& feature_angle
       ->check(number({}));
 }
 
-Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file) {
+ShellMesh made_from(const ShellMesh& mesh, const std::filesystem::path& path,
+                    const std::function<ShellMesh()>& make) try {
+  return make();
+} catch (const Error& error) {
+  if (error.kind() != Error::Kind::failure || error.subject() == ExecutionContext::time_subject) throw;
+  const std::string file = path.string();
   const bool counts = error.subject().rfind("triangle ", 0) == 0 || error.subject().rfind("point ", 0) == 0;
-  if (!counts) return failure(file, fmt::format("{}: {}", file, with_options(error.what())));
+  if (!counts) throw failure(file, fmt::format("{}: {}", file, with_options(error.what())));
   const char* counted = mesh.quads.empty()
                             ? "triangles and points counted from 0, as they come in the file"
                             : "points counted from 0, triangles too, and after them two for each quad";
-  return failure(file, fmt::format("{}: {} ({})", file, with_options(error.what()), counted));
+  throw failure(file, fmt::format("{}: {} ({})", file, with_options(error.what()), counted));
 }
 
 }  // namespace quadrille::command

@@ -3,10 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "geometry/base/error.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille::command {
@@ -20,7 +20,9 @@ double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& m
 void add_surface_options(CLI::App& command, std::optional<double>& feature_angle,
                          std::optional<double>& merge, const std::string& fold);
 
-/// The error with the name of the mesh file and, if it names a triangle or point, how these are counted.
-Error named_by_file(const Error& error, const ShellMesh& mesh, const std::string& file);
+/// What `make` makes of the mesh of a file. Its failures get the name of the file and, if they name a
+/// triangle or point, how these are counted.
+ShellMesh made_from(const ShellMesh& mesh, const std::filesystem::path& path,
+                    const std::function<ShellMesh()>& make);
 
 }  // namespace quadrille::command
