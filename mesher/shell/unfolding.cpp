@@ -288,7 +288,7 @@ std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering&
     Sliding(mesh, *surface, first, end, midsides, context).run(at_first[face]);
   }
   const std::vector<std::size_t> left = joined(find_folded(mesh, meshed, numbering, context));
-  if (left.empty()) return left;
+  if (left.empty()) return {};
   Straightening straightening(mesh, midsides.first_inner, context);
   straightening.run(left);
   list(straightening, meshed, numbering, midsides, mesh);
