@@ -168,16 +168,6 @@ std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions&
       solid, options.thickest);
 }
 
-std::string face_names(const std::vector<int>& numbers) {
-  std::vector<std::string> names;
-  constexpr std::size_t names_shown = 12;
-  for (std::size_t i = 0; i < std::min(names_shown, numbers.size()); ++i) {
-    names.push_back(fmt::format("Face{}", numbers[i]));
-  }
-  if (numbers.size() > names_shown) names.push_back(fmt::format("{} more", numbers.size() - names_shown));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// The numbers of some of the skin's faces, ascending. \param faces their indices
 template <class Indices>
 std::vector<int> numbers_of(const Skin& skin, const Indices& faces) {

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/io/io.hpp"
 #include "mesher/io/text_cursor.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
