@@ -54,6 +54,10 @@ class SkinFace {
   std::optional<gp_Dir> outward(const gp_Pnt2d& uv) const;
   /// Parameters of the closest point of the (untrimmed) surface.
   gp_Pnt2d closest(const gp_Pnt& point) const;
+  /// outward() at the closest point of the (untrimmed) surface.
+  std::optional<gp_Dir> outward_at(const gp_Pnt& near) const { return outward(closest(near)); }
+  /// The distance from the (untrimmed) surface.
+  double distance(const gp_Pnt& from) const { return point(closest(from)).Distance(from); }
   gp_Pnt point(const gp_Pnt2d& uv) const { return adaptor_->Value(uv.X(), uv.Y()); }
   /// The closest point of the surface, if it lies in the face.
   std::optional<gp_Pnt> foot(const gp_Pnt& point) const;

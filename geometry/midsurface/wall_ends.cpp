@@ -157,8 +157,8 @@ TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
 }
 
 /// Whether the wall contains the point and its thickness direction there is nearly parallel to `across`.
-bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const gp_Dir& across) {
-  const auto position = position_in(wall, skin, point);
+bool runs_through(const Wall& wall, const gp_Pnt& point, const gp_Dir& across) {
+  const auto position = position_in(wall, point);
   if (!position || position->thickness() < Precision::Confusion()) return false;
   return std::abs(gp_Dir(gp_Vec(position->feet[0], position->feet[1])).Dot(across)) > nearly_parallel;
 }
@@ -179,16 +179,14 @@ constexpr double at_one_vertex = 1e-4;  // over the thickness
 constexpr std::array<double, 4> searched_depths{0.5, 0.85, 0.15, 0.95};
 
 /// Whether a wall begins behind a point of an edge, at the distance and depth of `next`.
-bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
-                   const NextWall& next) {
+bool begins_behind(const Wall& wall, const FaceEdge& edge, double at, const NextWall& next) {
   const gp_Pnt beyond = edge.inside(at, next.depth).Translated(next.away * edge.away(at));
-  return runs_through(wall, skin, beyond, edge.outward(at));
+  return runs_through(wall, beyond, edge.outward(at));
 }
 
 /// The walls that begin close by: at several depths at one place, as where a sheet leaves the one it lies on,
 /// and beside each other; otherwise the first one farther away. Empty if there is none.
-std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
-                                 const FaceEdge& edge) {
+std::vector<NextWall> next_walls(const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
   const bool corner = edge.in_corner();
   std::vector<NextWall> result;
@@ -205,8 +203,7 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
         const double at = edge.at(share);
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
-          if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
-            continue;
+          if (other == wall || is_known(other) || !begins_behind(walls[other], edge, at, next)) continue;
           result.push_back(next);
           if (away > close_by) return result;
         }
@@ -219,18 +216,17 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
 /// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
 /// behind it. \param t thickness of the edge's wall. \param guess of the depth, which is returned if the wall
 /// is at none of the depths that are searched.
-double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at, double step, double t,
-                double guess) {
+double depth_at(const Wall& wall, const FaceEdge& edge, double at, double step, double t, double guess) {
   const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
   const auto is_in = [&](double depth) {
-    return position_in(wall, skin, start.Translated(-depth * gp_Vec(edge.outward(at)))).has_value();
+    return position_in(wall, start.Translated(-depth * gp_Vec(edge.outward(at)))).has_value();
   };
   double depth = guess;
   for (std::size_t i = 0; i < searched_depths.size() && !is_in(depth); ++i) depth = searched_depths[i] * t;
   if (!is_in(depth)) return guess;
   for (int i = 0; i < 4; ++i) {  // if the sides are not parallel their middle lies a little aside
     const gp_Pnt point = start.Translated(-depth * gp_Vec(edge.outward(at)));
-    const auto position = position_in(wall, skin, point);
+    const auto position = position_in(wall, point);
     if (!position) break;
     const gp_Pnt middle(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ()));
     depth -= gp_Vec(point, middle).Dot(gp_Vec(edge.outward(at)));
@@ -252,7 +248,7 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
     double depth = 0, slope = 0;
   };
   const auto line_of = [&](const Wall& of, double aside, double depth) -> std::optional<Line> {
-    const auto position = position_in(of, skin, start.Translated(aside * away + depth * down));
+    const auto position = position_in(of, start.Translated(aside * away + depth * down));
     if (!position || position->thickness() < Precision::Confusion()) return std::nullopt;
     const gp_Vec across(position->feet[0], position->feet[1]);
     const gp_Vec to(start, gp_Pnt(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ())));
@@ -278,29 +274,29 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
   if (std::abs(meet) < 0.5 * t) return true;
   const gp_Pnt corner = start.Translated(meet * away + (own->depth + own->slope * meet) * down);
   return planes && std::abs(meet) < 8 * own_thickness && skin.in_material(corner) &&
-         !position_in(walls[wall], skin, corner) && !position_in(walls[next.wall], skin, corner);
+         !position_in(walls[wall], corner) && !position_in(walls[next.wall], corner);
 }
 
 /// \param beside all walls that begin at the edge. At a step the fence reaches from the first to the last of
 /// their middles: fences that lie on each other in part would cut each other.
-WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
-                 const FaceEdge& edge, const std::vector<NextWall>& beside) {
+WallEnd make_end(const std::vector<Wall>& walls, int wall, const NextWall& next, const FaceEdge& edge,
+                 const std::vector<NextWall>& beside) {
   const double t = walls[wall].thickness;
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
   bool step = false;
-  double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
+  double high = HUGE_VAL, low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
     // Behind the middle of the edge there may be another wall, beside this one.
     const bool elsewhere = share == 0.5 && edge.first() < next.at && next.at < edge.last();
     const double at = elsewhere ? next.at : edge.at(share);
-    const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
-    const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
+    const double own = depth_at(walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
+    const double other = depth_at(walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
     high = std::min({high, own, other});
     low = std::max({low, own, other});
     if (!step) break;
     for (const NextWall& also : beside) {
-      const double depth = depth_at(skin, walls[also.wall], edge, at, step_over, t, also.depth);
+      const double depth = depth_at(walls[also.wall], edge, at, step_over, t, also.depth);
       high = std::min(high, depth);
       low = std::max(low, depth);
     }
@@ -324,9 +320,9 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
   // At any of the depths that are searched: the floor behind an edge may lean.
   const auto begins = [&](double t) {
-    return begins_behind(skin, wall, edge, t, next) ||
+    return begins_behind(wall, edge, t, next) ||
            std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
-             return begins_behind(skin, wall, edge, t, {next.wall, next.away, depth * thickness, t});
+             return begins_behind(wall, edge, t, {next.wall, next.away, depth * thickness, t});
            });
   };
   const auto is_material = [&](double t) {
@@ -346,7 +342,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     const bool line = edge.curve().GetType() == GeomAbs_Line;
     if (!line && from == end) return from;
     const double ahead = std::copysign(0.1 * thickness, end - first - 0.5 * length);
-    const double depth = depth_at(skin, wall, edge, from, next.away, thickness, next.depth);
+    const double depth = depth_at(wall, edge, from, next.away, thickness, next.depth);
     const auto behind = [&](double t) { return edge.inside(t, depth).Translated(next.away * edge.away(t)); };
     const auto hit = skin.first_hit(behind(from), gp_Dir(gp_Vec(behind(from), behind(from + ahead))));
     const gp_Vec back = -close_by * thickness * edge.away(from);
@@ -505,7 +501,7 @@ class RimEnds {
     const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
       const double at = edge.at(share);
       const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
-      const auto position = position_in(wall, skin_, above);
+      const auto position = position_in(wall, above);
       if (!position) return std::nullopt;
       return position->feet[0].Distance(above) / position->thickness() - 0.5;
     };
@@ -603,7 +599,7 @@ class WallEnds {
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
     std::map<double, std::vector<NextWall>> nexts;  // by place
-    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) nexts[next.at].push_back(next);
+    for (const NextWall& next : next_walls(walls_, wall, edge)) nexts[next.at].push_back(next);
     for (const auto& [at, here] : nexts) {
       // Only at a step there may be others above or below the next wall.
       for (const NextWall& next : here)
@@ -639,7 +635,7 @@ class WallEnds {
       const Wall& next = walls_[thinner.next.wall];
       for (const FaceEdge& part :
            stretches_along(skin_, next, thinner.edge, thinner.next, walls_[thinner.wall].thickness))
-        push(make_end(skin_, walls_, thinner.wall, thinner.next, part, {}), false, between);
+        push(make_end(walls_, thinner.wall, thinner.next, part, {}), false, between);
     }
   }
 
@@ -659,12 +655,12 @@ class WallEnds {
     if (stands_already(wall, next.wall, side, edge)) return false;
     const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
-    const WallEnd end = make_end(skin_, walls_, wall, next, edge, {});
+    const WallEnd end = make_end(walls_, wall, next, edge, {});
     if (!end.step) {
       push(end, riser, side);
     } else if (stands_on(walls_, wall, next.wall)) {
       for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t)) {
-        WallEnd stretch = make_end(skin_, walls_, wall, next, part, beside);
+        WallEnd stretch = make_end(walls_, wall, next, part, beside);
         if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
           stretch.riser = skin_.index_of(edge.beside().face());
         push(stretch, true, between);
@@ -690,8 +686,7 @@ class WallEnds {
     for (const double share : {0.5, 0.05, 0.95}) {
       const FaceEdge& edge = thinner.edge;
       const double at = edge.at(share);
-      const gp_Pnt middle =
-          edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
+      const gp_Pnt middle = edge.inside(at, depth_at(walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
       const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
         if (end.wall != thinner.wall || end.next != thinner.next.wall || !end.step) return false;
         const auto way = way_from(end.fence, middle);

@@ -30,14 +30,12 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
   for (const Wall& other : walls) {
     for (const auto& side : other.sides) in_walls.insert(side.begin(), side.end());
   }
-  for (const auto& side : walls[wall].sides) {
-    for (const int face : side) {
-      result.insert(face);
-      for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-        for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
-          const int index = skin.index_of(neighbor);
-          if (in_walls.count(index) == 0) result.insert(index);
-        }
+  for (const int face : both_sides(walls[wall])) {
+    result.insert(face);
+    for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
+      for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
+        const int index = skin.index_of(neighbor);
+        if (in_walls.count(index) == 0) result.insert(index);
       }
     }
   }
@@ -61,14 +59,14 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
 
 /// The wall's middle. A sphere is turned so that its seam and poles are away from the wall's sides if these
 /// are less than half a sphere: near seam and poles OpenCASCADE loses parts.
-Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
+Handle(Geom_Surface) turned_away(const Wall& wall) {
   const auto sphere = Handle(Geom_SphericalSurface)::DownCast(wall.middle);
   if (sphere.IsNull()) return wall.middle;
   const gp_Pnt center = sphere->Location();
   gp_Vec middle;
   double area = 0;
   for (const int face : both_sides(wall)) {
-    for (const FaceSample& sample : skin.faces()[face].samples(24)) {
+    for (const FaceSample& sample : wall.face(face).samples(24)) {
       middle += sample.area * gp_Vec(center, sample.point).Normalized();
       area += sample.area;
     }
@@ -88,7 +86,7 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
   if (walls[wall].ends) return BRepBuilderAPI_MakeFace(walls[wall].middle, Precision::Confusion()).Face();
   const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
-  const Handle(Geom_Surface) middle = turned_away(skin, walls[wall]);
+  const Handle(Geom_Surface) middle = turned_away(walls[wall]);
   const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;
@@ -134,11 +132,11 @@ std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left
 }
 
 /// Adds the corners to the thickness range: there a varying thickness has its extremes, outside the samples.
-void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& skin, Coverage& coverage) {
+void widen_to_corners(const TopoDS_Face& face, const Wall& wall, Coverage& coverage) {
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt corner = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
-    if (wall.fitted && !position_in(wall, skin, corner)) continue;
-    const double t = thickness_round(wall, skin, corner);
+    if (wall.fitted && !position_in(wall, corner)) continue;
+    const double t = thickness_round(wall, corner);
     coverage.thinnest = std::min(coverage.thinnest, t);
     coverage.thickest = std::max(coverage.thickest, t);
   }
@@ -146,7 +144,7 @@ void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& ski
 
 /// The thickness over a face, at the samples where there is one. \param thickness_at of a sample's place
 template <class ThicknessAt>
-Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, ThicknessAt&& thickness_at) {
+Coverage measured(const TopoDS_Face& face, const Wall& wall, ThicknessAt&& thickness_at) {
   Coverage result;
   double area = 0, covered = 0;
   for (const FaceSample& sample : sample_face(face, 16)) {
@@ -159,7 +157,7 @@ Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, T
     covered += sample.area;
   }
   if (covered > 0) result.mean /= covered;
-  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, skin, result);
+  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, result);
   result.share = area > 0 ? covered / area : 0;
   return result;
 }
@@ -180,13 +178,13 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
 
 /// The pieces that lie, at least in part, between the sides of the wall.
 std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
-                                       const Skin& skin, const ExecutionContext& context) {
+                                       const ExecutionContext& context) {
   constexpr double least_share = 0.02;
   std::vector<TopoDS_Face> result;
   for (const TopoDS_Face& piece : pieces) {
     context.check();
     triangulate_middle(piece, wall.thickness);
-    if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
+    if (coverage_of(piece, wall).share > least_share) result.push_back(piece);
   }
   return result;
 }
@@ -200,24 +198,24 @@ void triangulate_middle(const TopoDS_Face& face, double thickness) {
   triangulate(face, std::min(0.2 * thickness, width > 0 ? 0.1 * width : thickness), turn);
 }
 
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
-  return measured(face, wall, skin, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
-    const auto position = position_in(wall, skin, point);
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall) {
+  return measured(face, wall, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
+    const auto position = position_in(wall, point);
     if (!position) return std::nullopt;
     so_far.faces.insert(position->faces.begin(), position->faces.end());
     return position->thickness();
   });
 }
 
-double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point) {
+double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& point) {
   if (coverage.thickest <= coverage.thinnest) return coverage.mean;
-  const double t = thickness_round(wall, skin, point) + coverage.added;
+  const double t = thickness_round(wall, point) + coverage.added;
   return std::clamp(t, coverage.thinnest, coverage.thickest);
 }
 
-Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
-  Coverage result = measured(face, wall, skin, [&](const gp_Pnt& point, const Coverage&) {
-    return std::optional(thickness_round(wall, skin, point));
+Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall) {
+  Coverage result = measured(face, wall, [&](const gp_Pnt& point, const Coverage&) {
+    return std::optional(thickness_round(wall, point));
   });
   result.share = 0;  // none of it lies between both sides
   return result;
@@ -234,8 +232,7 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   const std::set<int> never_met = left_out(walls, wall, ends);
   for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences, context)) {
     const auto pieces = cut_by(part, near_faces(skin, never_met, part), context);
-    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], skin, context))
-      result.push_back(piece);
+    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], context)) result.push_back(piece);
   }
   return result;
 }

@@ -35,14 +35,14 @@ struct Coverage {
 void triangulate_middle(const TopoDS_Face& face, double thickness);
 
 /// \param face with triangles.
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall);
 
 /// How thick the wall would be at a middle face where its sides do not reach, as beside a corner with a
 /// fillet: the distance between their surfaces. \param face with triangles.
-Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
+Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall);
 
 /// The thickness of a middle face at a point, with what fillets add, within the range of its coverage.
-double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point);
+double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& point);
 
 /// All ends of all walls. A step has two ends; the fence of only one of them joins the walls.
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,

@@ -164,17 +164,11 @@ std::vector<std::size_t> pairs_around(const std::vector<SurfacePair>& pairs, std
   return result;
 }
 
-double area_of(const Skin& skin, const std::vector<int>& faces) {
-  double area = 0;
-  for (const int face : faces) area += skin.faces()[face].area();
-  return area;
-}
-
 /// The wall formed by pairs that share the surface `center`. Nothing if neither side is paired over three
 /// quarters: a fillet at a junction faces the walls at its two ends, and between them the junction's inside.
 std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pairs, int center) {
   constexpr double least_covered = 0.75;
-  Wall wall;
+  Wall wall{&skin};
   std::array<double, 2> covered{0, 0};
   for (const SurfacePair& pair : pairs) {
     const int first = pair.surfaces[0] == center ? 0 : 1;
@@ -187,22 +181,23 @@ std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pa
   }
   wall.thickness /= covered[0] + covered[1];
   for (int side = 0; side < 2; ++side) {
-    if (covered[side] > least_covered * area_of(skin, wall.sides[side])) return wall;
+    double area = 0;
+    for (const int face : wall.sides[side]) area += wall.face(face).area();
+    if (covered[side] > least_covered * area) return wall;
   }
   return std::nullopt;
 }
 
 /// Whether the wall has two flat faces, as the corners of flat walls do.
-bool has_two_flats(const Skin& skin, const Wall& wall) {
+bool has_two_flats(const Wall& wall) {
   const std::vector<int> faces = both_sides(wall);
-  return std::count_if(faces.begin(), faces.end(), [&](int index) {
-           return skin.faces()[index].surface().GetType() == GeomAbs_Plane;
-         }) > 1;
+  return std::count_if(faces.begin(), faces.end(),
+                       [&](int face) { return wall.face(face).surface().GetType() == GeomAbs_Plane; }) > 1;
 }
 
 /// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
 /// skin inside the bend would turn over. Where both radii of a bend are equal, its middle is nearly a corner.
-bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_Surface) & middle) {
+bool is_bent_too_tightly(const Wall& wall, const Handle(Geom_Surface) & middle) {
   constexpr double max_bend = 0.9;  // half the thickness over the radius
   const GeomAdaptor_Surface surface(middle);
   TColStd_Array1OfReal us(1, surface.NbUIntervals(GeomAbs_CN) + 1),
@@ -215,7 +210,7 @@ bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_S
     if (!at.IsCurvatureDefined()) return false;
     const double curvature = std::max(std::abs(at.MaxCurvature()), std::abs(at.MinCurvature()));
     if (curvature * wall.thickness < max_bend) return false;  // spares the search where it is nearly flat
-    return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > max_bend;
+    return 0.5 * curvature * thickness_round(wall, at.Value()) > max_bend;
   };
   for (const double share : {0.25, 0.5, 0.75}) {
     const double u = (1 - share) * us.First() + share * us.Last();
@@ -271,11 +266,17 @@ std::vector<std::array<int, 2>> mutual_pairs(const std::vector<SurfacePair>& pai
   return result;
 }
 
+void take_fitted(const NearMiddle& middle, Wall& wall) {
+  wall.middle = middle.surface;
+  wall.fitted = wall.ends = true;
+  wall.off = middle.off;
+}
+
 /// The wall at an index of `chains`, with a fitted middle.
 std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSides>& chains, std::size_t index,
                                  double thickness, double tolerance, double margin) {
   const MatchedSides& own = chains[index];
-  Wall wall;
+  Wall wall{&skin};
   wall.sides = {std::vector<int>{own.faces[0]}, std::vector<int>{own.faces[1]}};
   wall.thickness = thickness;
   auto sides = wall.sides;
@@ -283,9 +284,7 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
   for (const std::size_t next : own.next) add_once(sides[1], chains[next].faces[1]);
   const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.beside);
   if (!middle) return std::nullopt;
-  wall.middle = middle->surface;
-  wall.fitted = wall.ends = true;
-  wall.off = middle->off;
+  take_fitted(*middle, wall);
   return wall;
 }
 
@@ -319,11 +318,11 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
 
 /// Removes walls that are thicker than wide if the material between their sides lies in a wall with larger
 /// sides: what a pocket leaves of a plate along its rim is plate, not a wall that stands there.
-void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
+void drop_stubs(std::vector<Wall>& walls) {
   const auto size_of = [&](const Wall& wall, auto&& size) {
     std::array<double, 2> sums{0, 0};
     for (int side = 0; side < 2; ++side)
-      for (const int face : wall.sides[side]) sums[side] += size(skin.faces()[face]);
+      for (const int face : wall.sides[side]) sums[side] += size(wall.face(face));
     return std::min(sums[0], sums[1]);
   };
   std::vector<double> areas;
@@ -335,14 +334,14 @@ void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
     if (size_of(wall, [](const SkinFace& face) { return width_of(face.face()); }) >= wall.thickness)
       return false;
     for (const int face : both_sides(wall)) {
-      for (const FaceSample& sample : skin.faces()[face].samples(samples_a_face)) {
-        const auto outward = skin.faces()[face].outward(sample.uv);
+      for (const FaceSample& sample : wall.face(face).samples(samples_a_face)) {
+        const auto outward = wall.face(face).outward(sample.uv);
         if (!outward) continue;
         const gp_Pnt middle = sample.point.Translated(-0.5 * wall.thickness * gp_Vec(*outward));
-        if (!position_in(wall, skin, middle)) continue;
+        if (!position_in(wall, middle)) continue;
         bool held = false;
         for (std::size_t other = 0; other < walls.size() && !held; ++other)
-          held = areas[other] > areas[own] && position_in(walls[other], skin, middle);
+          held = areas[other] > areas[own] && position_in(walls[other], middle);
         if (!held) return false;
       }
     }
@@ -389,34 +388,32 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
       middle = near_middle_surface(skin.faces()[pair.faces[0].front()], skin.faces()[pair.faces[1].front()],
                                    tolerance * thickness);
     if (middle.surface.IsNull()) continue;
-    walls.push_back({pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
+    walls.push_back({&skin, pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
     pair.middle = middle.surface;
   }
-  drop_stubs(skin, walls);
+  drop_stubs(walls);
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
   move_chains(skin, surfaces, tolerance, 3 * thickest, context, pairs, walls);
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
     context.check();
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
-    if (has_two_flats(skin, wall) && is_bent_too_tightly(skin, wall, middle->surface)) continue;
-    wall.middle = middle->surface;
-    wall.fitted = wall.ends = true;
-    wall.off = middle->off;
+    if (has_two_flats(wall) && is_bent_too_tightly(wall, middle->surface)) continue;
+    take_fitted(*middle, wall);
     walls.push_back(wall);
   }
   return walls;
 }
 
-std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
+std::optional<WallPosition> position_in(const Wall& wall, const gp_Pnt& point) {
   WallPosition result;
   const Bnd_Box at(point, point);
   const double reach = 2.11 * wall.thickness;  // a foot farther away is rejected below
   for (int side = 0; side < 2; ++side) {
     bool found = false;
     for (const int face : wall.sides[side]) {
-      if (skin.faces()[face].box().Distance(at) > reach) continue;
-      const auto foot = skin.faces()[face].foot(point);
+      if (wall.face(face).box().Distance(at) > reach) continue;
+      const auto foot = wall.face(face).foot(point);
       if (!foot || (found && foot->Distance(point) >= result.feet[side].Distance(point))) continue;
       result.feet[side] = *foot;
       result.faces[side] = face;
@@ -431,16 +428,12 @@ std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, cons
   return result;
 }
 
-double thickness_round(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
-  if (const auto position = position_in(wall, skin, point)) return position->thickness();
+double thickness_round(const Wall& wall, const gp_Pnt& point) {
+  if (const auto position = position_in(wall, point)) return position->thickness();
   double result = 0;
   for (const auto& side : wall.sides) {
-    double nearest = -1;
-    for (const int index : side) {
-      const SkinFace& face = skin.faces()[index];
-      const double distance = face.point(face.closest(point)).Distance(point);
-      if (nearest < 0 || distance < nearest) nearest = distance;
-    }
+    double nearest = HUGE_VAL;
+    for (const int face : side) nearest = std::min(nearest, wall.face(face).distance(point));
     result += nearest;
   }
   return result;
