@@ -3,9 +3,10 @@
 #include "geometry/midsurface/checks.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRepGProp_Face.hxx>
+#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
@@ -206,12 +207,11 @@ double section_counted_twice(const std::vector<Wall>& walls, const std::vector<J
   return section;
 }
 
-/// Unit normal of the surface of a face; none where the surface is singular.
+/// Unit normal of a face; none where the surface is singular.
 std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
   gp_Pnt at;
-  gp_Vec du, dv;
-  BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
-  const gp_Vec normal = du.Crossed(dv);
+  gp_Vec normal;
+  BRepGProp_Face(face).Normal(uv.X(), uv.Y(), at, normal);
   return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
 }
 
@@ -241,17 +241,12 @@ Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   Fan result;
   const BRepAdaptor_Curve curve(edge);
   curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
-  const BRepAdaptor_Surface surface(face, Standard_False);
   const gp_Pnt2d uv =
-      ShapeAnalysis_Surface(surface.Surface().Surface())
-          .ValueOfUV(result.point.Transformed(surface.Trsf().Inverted()), Precision::Confusion());
+      ShapeAnalysis_Surface(BRep_Tool::Surface(face)).ValueOfUV(result.point, Precision::Confusion());
   gp_Pnt at;
-  gp_Vec du, dv;
-  surface.D1(uv.X(), uv.Y(), at, du, dv);
-  result.normal = du.Crossed(dv);
+  BRepGProp_Face(face).Normal(uv.X(), uv.Y(), at, result.normal);
   if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
   if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
-  if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
   result.away = result.along.Crossed(result.normal);
   if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
   return result;

@@ -2,7 +2,6 @@
 
 #include "geometry/midsurface/gaps.hpp"
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -81,13 +80,12 @@ std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
   for (const TopoDS_Edge& edge : edges_of(face.face())) {
-    const BRepAdaptor_Curve curve(edge);
     for (const TopoDS_Shape& next : skin.faces_of(edge)) {
       if (next.IsSame(face.face())) continue;
       const SkinFace& other = skin.faces()[skin.index_of(next)];
       for (const double place : places) {
-        const gp_Pnt at = curve.Value((1 - place) * curve.FirstParameter() + place * curve.LastParameter());
-        const auto own = face.outward(face.closest(at)), outward = other.outward(other.closest(at));
+        const gp_Pnt at = point_at(edge, place);
+        const auto own = face.outward_at(at), outward = other.outward_at(at);
         if (own && outward)
           result.push_back(
               {length_of(edge) / static_cast<double>(places.size()), gp_Vec(*own), gp_Vec(*outward)});
@@ -383,11 +381,9 @@ class GapFinder {
     if (is_flat(face(rounded))) return false;
     const double near = 1e-6 * solids_[rounded.solid].size();
     for (const TopoDS_Edge& edge : edges_of(face(rounded).face())) {
-      const BRepAdaptor_Curve curve(edge);
-      const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-      const gp_Pnt2d uv = face(other).closest(at);
-      if (face(other).point(uv).Distance(at) > near) continue;
-      const auto own = face(rounded).outward(face(rounded).closest(at)), opposite = face(other).outward(uv);
+      const gp_Pnt at = point_at(edge, 0.5);
+      if (face(other).distance(at) > near) continue;
+      const auto own = face(rounded).outward_at(at), opposite = face(other).outward_at(at);
       if (own && opposite && own->Dot(*opposite) < -0.9999) return true;
     }
     return false;

@@ -3,7 +3,6 @@
 #include "geometry/midsurface/joining.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <BRepAdaptor_Curve.hxx>
 #include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
@@ -98,11 +97,6 @@ struct Contact {
   double loose = 0;          ///< length of the longest edge that it would leave open
 };
 
-gp_Pnt middle_of(const TopoDS_Shape& edge) {
-  const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
-  return curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-}
-
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
 /// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
 /// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
@@ -117,9 +111,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
   for (const Strip& strip : strips) pieces.insert(pieces.end(), strip.begin(), strip.end());
   const EdgeUses among(pieces);
   TopTools_DataMapOfShapeInteger off_skin;  // by edge
-  const auto is_off_skin = [&](const TopoDS_Shape& edge, double thickness) {
+  const auto is_off_skin = [&](const TopoDS_Edge& edge, double thickness) {
     if (const int* known = off_skin.Seek(edge)) return *known != 0;
-    const bool off = skin.faces_at(middle_of(edge), 1e-3 * thickness).empty();
+    const bool off = skin.faces_at(point_at(edge, 0.5), 1e-3 * thickness).empty();
     off_skin.Bind(edge, off ? 1 : 0);
     return off;
   };
@@ -149,7 +143,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
           const TopAbs_Orientation orientation = own_uses.front().orientation;
           if (among.find(edge)->size() > 1 || orientation == TopAbs_INTERNAL) continue;
           const bool off = is_off_skin(edge, walls[piece.wall].thickness);
-          if (off && piece.step && !skin.in_material(middle_of(edge))) return Contact();
+          if (off && piece.step && !skin.in_material(point_at(edge, 0.5))) return Contact();
           if (off || piece.step) loose.push_back(edge);
           if (!off)
             result.on_skin.push_back(fan_at(TopoDS::Edge(edge.Oriented(orientation)), piece.face, 0.5));
@@ -331,10 +325,14 @@ void orient_alike(std::vector<JoinedFace>& faces) {
   }
 }
 
-std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces) {
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces,
+                                                      const std::vector<int>& group) {
   boost::disjoint_sets_with_storage<> together(faces.size());
   for (const auto& [edge, around] : EdgeUses(faces))
-    for (const EdgeUses::Use& use : around) together.union_set(around.front().face, use.face);
+    for (const EdgeUses::Use& from : around)
+      for (const EdgeUses::Use& to : around)
+        if (group.empty() || group[faces[from.face].wall] == group[faces[to.face].wall])
+          together.union_set(from.face, to.face);
   std::map<std::size_t, std::size_t> index;  // of the part, by the face that stands for it
   std::vector<std::vector<std::size_t>> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <Adaptor3d_Curve.hxx>
 #include <BRep_Tool.hxx>
+#include <ElCLib.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
@@ -84,7 +85,7 @@ bool same_outside(const SkinFace& a, const SkinFace& b) {
   const auto samples = a.samples(1);
   if (samples.empty()) return false;
   const auto here = a.outward(samples.front().uv);
-  const auto there = b.outward(b.closest(samples.front().point));
+  const auto there = b.outward_at(samples.front().point);
   return here && there && here->Dot(*there) > 0;
 }
 
@@ -118,8 +119,7 @@ std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size
   if (curve->GetType() != GeomAbs_Circle) return std::nullopt;
   const gp_Circ circle = curve->Circle();
   const gp_Lin axis(surface.AxeOfRevolution());
-  const double height = gp_Vec(axis.Location(), circle.Location()).Dot(gp_Vec(axis.Direction()));
-  const gp_Pnt center = axis.Location().Translated(height * gp_Vec(axis.Direction()));
+  const gp_Pnt center = ElCLib::Value(ElCLib::Parameter(axis, circle.Location()), axis);
   const double major = center.Distance(circle.Location());
   const bool in_plane =
       std::abs(circle.Axis().Direction().Dot(axis.Direction())) < same_direction &&
@@ -206,12 +206,9 @@ double distance_from_carrier(const SkinFace& face, const gp_Pnt& point) {
       return gp_Lin(surface.Cylinder().Axis()).Distance(point);
     case GeomAbs_Cone:
       return surface.Cone().Apex().Distance(point);
-    case GeomAbs_Sphere:
-      return surface.Sphere().Location().Distance(point);
-    case GeomAbs_Torus:
-      return surface.Torus().Location().Distance(point);
     default:
-      return 0;
+      const auto frame = frame_of(surface);
+      return frame ? frame->Location().Distance(point) : 0;
   }
 }
 

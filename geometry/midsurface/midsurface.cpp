@@ -170,20 +170,13 @@ constexpr double slender = 12;
 
 /// For each face, the thickness of its connected part over the part's width.
 std::vector<double> thickness_over_width(const SolidMiddle& middle, const std::vector<WallEnd>& ends) {
-  const std::vector<int> group = width_groups(middle.walls, ends);
   std::vector<double> result(middle.faces.size(), 0);
-  std::map<int, std::vector<std::size_t>> by_group;
-  for (std::size_t i = 0; i < result.size(); ++i) by_group[group[middle.faces[i].wall]].push_back(i);
-  for (const auto& [number, indices] : by_group) {
-    std::vector<JoinedFace> faces;
-    for (const std::size_t i : indices) faces.push_back(middle.faces[i]);
-    for (const std::vector<std::size_t>& part : connected_parts(faces)) {
-      std::vector<JoinedFace> own;
-      own.reserve(part.size());
-      for (const std::size_t i : part) own.push_back(faces[i]);
-      const double ratio = thickness_over_width(own);
-      for (const std::size_t i : part) result[indices[i]] = ratio;
-    }
+  for (const auto& part : connected_parts(middle.faces, width_groups(middle.walls, ends))) {
+    std::vector<JoinedFace> own;
+    own.reserve(part.size());
+    for (const std::size_t i : part) own.push_back(middle.faces[i]);
+    const double ratio = thickness_over_width(own);
+    for (const std::size_t i : part) result[i] = ratio;
   }
   return result;
 }

@@ -12,7 +12,6 @@
 #include <array>
 #include <gp_Dir.hxx>
 #include <gp_Lin.hxx>
-#include <gp_Pln.hxx>
 #include <gp_Pnt.hxx>
 #include <memory>
 #include <optional>
@@ -39,6 +38,13 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 /// largest distance from the shape. \param angle radians between neighboring triangles of a curved face, and
 /// between parts of its edges.
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle = 0.4);
+
+/// A triangle of a face.
+struct SkinTriangle {
+  std::array<gp_Pnt, 3> points;  ///< on the surface
+  std::array<gp_Pnt2d, 3> uv;
+  double area = 0;
+};
 
 /// One face of a solid. Evaluation uses internal caches: threads must not share an object.
 class SkinFace {
@@ -67,6 +73,18 @@ class SkinFace {
 
   std::vector<FaceSample> samples(int at_least) const { return sample_face(face_, at_least); }
 
+  struct LineHit {
+    gp_Pnt2d uv;
+    double along = 0;  ///< parameter on the line
+  };
+  /// Must be called once before hits(), of a face with triangles unless it has many holes. \param near points
+  /// closer to a line than this lie on it.
+  void prepare_hits(double near);
+  /// Intersections with a line, about between two of its parameters: with the triangles first, then with the
+  /// exact surface; a plane with many holes has no triangles. On tori and B-splines this is about a hundred
+  /// times faster than OpenCASCADE. Time: logarithmic in the triangles.
+  std::vector<LineHit> hits(const gp_Lin& line, double from, double to) const;
+
  private:
   TopoDS_Face face_;
   int number_;
@@ -75,40 +93,9 @@ class SkinFace {
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
   std::shared_ptr<ClosestPoint> inverse_;
   std::shared_ptr<InsideTest> inside_;
-};
-
-/// A triangle of a face.
-struct SkinTriangle {
-  std::array<gp_Pnt, 3> points;  ///< on the surface
-  std::array<gp_Pnt2d, 3> uv;
-  double area = 0;
-};
-
-/// Intersects lines with a face: with its triangles first, then with its exact surface; a plane with many
-/// holes has no triangles. On tori and B-splines this is about a hundred times faster than OpenCASCADE.
-class RayFace {
- public:
-  struct Hit {
-    gp_Pnt2d uv;
-    double along = 0;  ///< parameter on the line
-  };
-  /// \param face with triangles unless it has many holes; it must outlive this. \param near points closer to
-  /// a line than this lie on it.
-  RayFace(const SkinFace& face, double near);
-  /// Hits about between two parameters of the line. Time: logarithmic in the triangles.
-  std::vector<Hit> hits(const gp_Lin& line, double from, double to) const;
-
- private:
-  std::optional<Hit> hit(const gp_Lin& line, const SkinTriangle& flat) const;
-  /// The point of the surface on the line, starting from a guess.
-  std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
-
-  const SkinFace& face_;
-  const BRepAdaptor_Surface& surface_;
-  std::optional<gp_Pln> plane_;  ///< of a face with many holes
-  std::vector<SkinTriangle> triangles_;
-  std::optional<BoxTree> boxes_;  ///< of the triangles
-  double near_;
+  std::vector<SkinTriangle> triangles_;  ///< empty if the face has many holes
+  BoxTree boxes_;                        ///< of the triangles
+  double near_ = 0;                      ///< see prepare_hits()
 };
 
 /// The faces of one solid.
@@ -150,8 +137,7 @@ class Skin {
   TopTools_IndexedDataMapOfShapeListOfShape around_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;     ///< one for each face
-  std::optional<BoxTree> boxes_;  ///< of the faces
+  BoxTree boxes_;  ///< of the faces
 };
 
 }  // namespace quadrille

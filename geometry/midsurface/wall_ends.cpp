@@ -66,17 +66,14 @@ class FaceEdge {
   }
   const BRepAdaptor_Curve& curve() const { return curve_; }
 
-  gp_Dir outward(double t) const {
-    const auto normal = face_.outward(face_.closest(curve_.Value(t)));
-    return normal ? *normal : gp::DZ();
-  }
+  gp_Dir outward(double t) const { return face_.outward_at(curve_.Value(t)).value_or(gp::DZ()); }
   gp_Pnt inside(double t, double depth) const {
     return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
   }
   /// Whether the other face rises outward from this one at the edge.
   bool in_corner() const {
     const double middle = 0.5 * (first_ + last_);
-    const auto other = beside_.outward(beside_.closest(curve_.Value(middle)));
+    const auto other = beside_.outward_at(curve_.Value(middle));
     return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
   }
   /// Unit vector in the face's tangent plane, across the edge and out of the face.
@@ -748,7 +745,7 @@ std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls
 std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
   constexpr double tangent = 5 * M_PI / 180, steepest = 85 * M_PI / 180;
   const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
-  const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));
+  const auto own = face.outward_at(at), other = beside.outward_at(at);
   if (!own || !other) return std::nullopt;
   const double turn = own->Angle(*other);
   if (turn > steepest || (turn > tangent && !edge.in_corner())) return std::nullopt;
