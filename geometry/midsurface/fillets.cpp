@@ -94,13 +94,12 @@ std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const std::vector
       part.face = TopoDS::Face(piece);
       bool strip = false;
       if (pieces.Extent() > 1 && !whole.step) {
-        triangulate_middle(part.face, walls[whole.wall].thickness);
         const Coverage coverage = coverage_of(part.face, walls[whole.wall]);
         strip = coverage.share < least_share;
         if (!strip) {
           part.coverage = coverage;
         } else if (!walls[whole.wall].fitted && whole.coverage.thickest > 1.001 * whole.coverage.thinnest) {
-          part.coverage = coverage_past_sides(part.face, walls[whole.wall]);
+          part.coverage = coverage_of(part.face, walls[whole.wall], true);
           part.coverage.faces = whole.coverage.faces;
         }
       }
@@ -260,6 +259,7 @@ FilletsByFace find_fillets(const Skin& skin, const std::vector<Wall>& walls,
   FilletsByFace result;
   const std::set<std::pair<int, int>> neighbors = neighbors_of(faces);
   for (auto& [face, borders] : find_fillet_borders(skin, walls)) {
+    if (walls_of(borders).size() < 2) continue;
     Fillet fillet = fillet_of(skin.faces()[face], walls, std::move(borders));
     if (fillet.volume == 0) continue;
     fillet.closed = is_closed(walls_of(fillet.borders), neighbors);

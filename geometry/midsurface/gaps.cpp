@@ -79,17 +79,12 @@ struct Beside {
 std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
-  for (const TopoDS_Edge& edge : edges_of(face.face())) {
-    for (const TopoDS_Shape& next : skin.faces_of(edge)) {
-      if (next.IsSame(face.face())) continue;
-      const SkinFace& other = skin.faces()[skin.index_of(next)];
-      for (const double place : places) {
-        const gp_Pnt at = point_at(edge, place);
-        const auto own = face.outward_at(at), outward = other.outward_at(at);
-        if (own && outward)
-          result.push_back(
-              {length_of(edge) / static_cast<double>(places.size()), gp_Vec(*own), gp_Vec(*outward)});
-      }
+  for (const auto& [edge, other] : skin.neighbors(face)) {
+    for (const double place : places) {
+      const gp_Pnt at = point_at(edge, place);
+      const auto own = face.outward_at(at), outward = skin.faces()[other].outward_at(at);
+      if (own && outward)
+        result.push_back({length_of(edge) / static_cast<double>(places.size()), *own, *outward});
     }
   }
   std::stable_sort(result.begin(), result.end(),
@@ -338,10 +333,10 @@ class GapFinder {
     BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
     BRepPrimAPI_MakePrism prism(moved.Shape(), length * gp_Vec(*along));
     DrawnFace result{prism.Shape(), {}};
-    for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
+    for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
       for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
-        result.numbers.emplace_back(side, number);
-    });
+        result.numbers.emplace_back(side, face({of.solid, beside}).number());
+    }
     result.numbers.emplace_back(prism.FirstShape(), face(of).number());
     result.numbers.emplace_back(prism.LastShape(), face(of).number());
     return {result};
@@ -362,11 +357,10 @@ class GapFinder {
     std::vector<DrawnFace> result;
     for (BRepAlgoAPI_Common& half : halves(face(of), context_)) {
       TopTools_DataMapOfShapeInteger numbers;
-      for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
-        TopTools_ListOfShape parts = half.Modified(edge);
-        if (parts.IsEmpty()) parts.Append(edge);
-        for (const TopoDS_Shape& part : parts) numbers.Bind(part, number);
-      });
+      for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
+        for (const TopoDS_Shape& part : images(half, edge))
+          numbers.Bind(part, face({of.solid, beside}).number());
+      }
       for (TopExp_Explorer it(half.Shape(), TopAbs_FACE); it.More(); it.Next()) {
         result.push_back(thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers,
                                     face(of).number(), context_));
@@ -387,18 +381,6 @@ class GapFinder {
       if (own && opposite && own->Dot(*opposite) < -0.9999) return true;
     }
     return false;
-  }
-
-  /// Calls `tell` with each edge of a face and the number of the neighbor there.
-  template <class Tell>
-  void for_each_neighbor(const FaceOf& of, const Tell& tell) const {
-    const Skin& skin = solids_[of.solid];
-    for (TopExp_Explorer it(face(of).face(), TopAbs_EDGE); it.More(); it.Next()) {
-      for (const TopoDS_Shape& beside : solids_[of.solid].faces_of(it.Current())) {
-        if (!beside.IsSame(face(of).face()))
-          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(beside)].number());
-      }
-    }
   }
 
   /// The other solids near a face.
@@ -459,7 +441,7 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& find
 
 /// Adds the common part of two solids.
 void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& context,
-                GapFillers& fillers) {
+                NumberedSolids& fillers) {
   BRepAlgoAPI_Common common;
   intersect(a.solid, b.solid, context, common);
   if (common.HasErrors()) return;  // reported later as parts that are not connected
@@ -467,22 +449,19 @@ void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& 
     fillers.solids.push_back(it.Current());
   for (const DrawnFace& prism : {a, b}) {
     for (const auto& [face, number] : prism.numbers) {
-      TopTools_ListOfShape parts = common.Modified(face);
-      if (parts.IsEmpty()) parts.Append(face);
-      for (const TopoDS_Shape& part : parts) {
+      for (const TopoDS_Shape& part : images(common, face))
         if (!fillers.numbers.IsBound(part)) fillers.numbers.Bind(part, number);
-      }
     }
   }
 }
 
 }  // namespace
 
-GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
+NumberedSolids fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
   constexpr double into = 0.25;  // over the thickness; surfaces that only touch are harder to fuse
   constexpr double all = 0.999;
   const GapFinder finder(solids, context);
-  GapFillers result;
+  NumberedSolids result;
   std::set<std::pair<int, FaceOf>> moved;
   for (const Gap& gap : find_gaps(solids, finder)) {
     context.check();

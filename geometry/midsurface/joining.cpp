@@ -42,7 +42,6 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls,
       for (const TopoDS_Shape& image : images(fuse, piece)) {
         context.check();
         const TopoDS_Face& face = TopoDS::Face(image);
-        triangulate_middle(face, walls[wall].thickness);
         const Coverage coverage = coverage_of(face, walls[wall]);
         (coverage.share < least_share ? result.hung_over : result.between)
             .push_back({face, static_cast<int>(wall), false, coverage});
@@ -244,7 +243,6 @@ void merge_wall(int wall, bool steps, const std::vector<Wall>& walls, const std:
   }
   for (const TopoDS_Shape& unified : list_of(unify.Shape(), TopAbs_FACE)) {  // the shell has some twice
     const TopoDS_Face& face = TopoDS::Face(unified);
-    triangulate_middle(face, walls[wall].thickness);
     merged.push_back({face, wall, steps, coverage_of(face, walls[wall])});
     if (steps || merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }

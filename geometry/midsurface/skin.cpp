@@ -236,6 +236,15 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numb
   for (SkinFace& face : faces_) face.prepare_hits(1e-8 * size_);
 }
 
+std::vector<std::pair<TopoDS_Edge, int>> Skin::neighbors(const SkinFace& of) const {
+  std::vector<std::pair<TopoDS_Edge, int>> result;
+  for (const TopoDS_Edge& edge : edges_of(of.face())) {
+    for (const TopoDS_Shape& face : faces_of(edge))
+      if (!face.IsSame(of.face())) result.emplace_back(edge, index_of(face));
+  }
+  return result;
+}
+
 std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
   const Bnd_Box at(point, point);
   std::vector<int> result;

@@ -7,6 +7,7 @@
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
 #include <array>
@@ -15,6 +16,7 @@
 #include <gp_Pnt.hxx>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/midsurface/box_tree.hpp"
@@ -120,6 +122,8 @@ class Skin {
   /// The faces around each edge, and around one of them; the same twice at a seam.
   const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
   const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }
+  /// The edges of a face, but not its seams, each with the index of the face on its other side.
+  std::vector<std::pair<TopoDS_Edge, int>> neighbors(const SkinFace& of) const;
   double size() const { return size_; }  ///< diagonal of the bounding box
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;

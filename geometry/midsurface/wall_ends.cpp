@@ -59,6 +59,7 @@ class FaceEdge {
     result.last_ = last;
     return result;
   }
+  double middle() const { return 0.5 * (first_ + last_); }
   /// The parameter at a share of the way along it.
   double at(double share) const { return first_ + share * (last_ - first_); }
   bool closed() const {
@@ -72,9 +73,8 @@ class FaceEdge {
   }
   /// Whether the other face rises outward from this one at the edge.
   bool in_corner() const {
-    const double middle = 0.5 * (first_ + last_);
-    const auto other = beside_.outward_at(curve_.Value(middle));
-    return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
+    const auto other = beside_.outward_at(curve_.Value(middle()));
+    return other && gp_Vec(*other).Dot(away(middle())) < -0.1;
   }
   /// Unit vector in the face's tangent plane, across the edge and out of the face.
   gp_Vec away(double t) const {
@@ -458,23 +458,20 @@ class RimEnds {
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
-    std::map<const FaceEdge*, bool> known;
-    // Whether the wall's middle continues past the edge inside the material.
-    const auto goes_on = [&](const FaceEdge& edge) {
-      const auto [entry, is_new] = known.try_emplace(&edge, false);
-      const double at = 0.5 * (edge.first() + edge.last());
-      if (is_new)
-        entry->second = skin_.in_material(edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at)));
-      return entry->second;
-    };
+    std::set<const FaceEdge*> going_on;  // past them the wall's middle continues inside the material
     for (const FaceEdge& edge : edges) {
-      if (edge.closed() || !goes_on(edge)) continue;
+      const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
+      if (!edge.closed() && skin_.in_material(middle.Translated(0.05 * t * edge.away(edge.middle()))))
+        going_on.insert(&edge);
+    }
+    for (const FaceEdge& edge : edges) {
+      if (going_on.count(&edge) == 0) continue;
       for (const double at : {edge.first(), edge.last()}) {
         const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
         const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
-          return end.edge != &edge && !goes_on(*end.edge);
+          return end.edge != &edge && going_on.count(end.edge) == 0;
         });
         if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
@@ -579,7 +576,7 @@ int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const Face
 
 /// Moves a fence half way toward the edge on the other side of the wall.
 void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
-  const auto way = way_from(fence, edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * thickness));
+  const auto way = way_from(fence, edge.inside(edge.middle(), 0.5 * thickness));
   if (!way || way->Magnitude() < Precision::Confusion()) return;
   gp_Trsf half;
   half.SetTranslation(0.5 * *way);
@@ -650,7 +647,7 @@ class WallEnds {
     if (riser && !stands_on(walls_, wall, next.wall)) return false;
     if (meet_in_corner(skin_, walls_, wall, next, edge)) return false;
     if (stands_already(wall, next.wall, side, edge)) return false;
-    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
+    const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
     const WallEnd end = make_end(walls_, wall, next, edge, {});
     if (!end.step) {
@@ -744,7 +741,7 @@ std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls
 /// from the material: tangent to it (0) or at an obtuse angle.
 std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
   constexpr double tangent = 5 * M_PI / 180, steepest = 85 * M_PI / 180;
-  const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
+  const gp_Pnt at = edge.curve().Value(edge.middle());
   const auto own = face.outward_at(at), other = beside.outward_at(at);
   if (!own || !other) return std::nullopt;
   const double turn = own->Angle(*other);
@@ -771,26 +768,17 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
     if (wall < 0) continue;
-    for (const TopoDS_Edge& border : edges_of(face.face())) {
-      for (const TopoDS_Shape& next : skin.faces_of(border)) {
-        const int fillet = skin.index_of(next);
-        const SkinFace& beside = skin.faces()[fillet];
-        if (wall_of[fillet] >= 0) continue;
-        const FaceEdge edge(face, beside, border);
-        const auto turn = turn_of_fillet(edge, face, beside);
-        if (!turn) continue;
-        const double t = walls[wall].thickness;
-        const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
-        const gp_Dir outward = edge.outward(0.5 * (edge.first() + edge.last()));
-        result[fillet].push_back({wall, fence, outward, *turn, length_of(border)});
-      }
+    for (const auto& [border, fillet] : skin.neighbors(face)) {
+      const SkinFace& beside = skin.faces()[fillet];
+      if (wall_of[fillet] >= 0) continue;
+      const FaceEdge edge(face, beside, border);
+      const auto turn = turn_of_fillet(edge, face, beside);
+      if (!turn) continue;
+      const double t = walls[wall].thickness;
+      const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
+      result[fillet].push_back({wall, fence, edge.outward(edge.middle()), *turn, length_of(border)});
     }
   }
-  std::erase_if(result, [](const auto& fillet) {
-    const std::vector<FilletBorder>& borders = fillet.second;
-    return std::all_of(borders.begin(), borders.end(),
-                       [&](const FilletBorder& border) { return border.wall == borders.front().wall; });
-  });
   return result;
 }
 

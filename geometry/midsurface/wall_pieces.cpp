@@ -32,12 +32,8 @@ std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls
   }
   for (const int face : both_sides(walls[wall])) {
     result.insert(face);
-    for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-      for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
-        const int index = skin.index_of(neighbor);
-        if (in_walls.count(index) == 0) result.insert(index);
-      }
-    }
+    for (const auto& [edge, neighbor] : skin.neighbors(skin.faces()[face]))
+      if (in_walls.count(neighbor) == 0) result.insert(neighbor);
   }
   return {result.begin(), result.end()};
 }
@@ -142,26 +138,6 @@ void widen_to_corners(const TopoDS_Face& face, const Wall& wall, Coverage& cover
   }
 }
 
-/// The thickness over a face, at the samples where there is one. \param thickness_at of a sample's place
-template <class ThicknessAt>
-Coverage measured(const TopoDS_Face& face, const Wall& wall, ThicknessAt&& thickness_at) {
-  Coverage result;
-  double area = 0, covered = 0;
-  for (const FaceSample& sample : sample_face(face, 16)) {
-    area += sample.area;
-    const std::optional<double> t = thickness_at(sample.point, result);
-    if (!t) continue;
-    result.thinnest = covered > 0 ? std::min(result.thinnest, *t) : *t;
-    result.thickest = std::max(result.thickest, *t);
-    result.mean += *t * sample.area;
-    covered += sample.area;
-  }
-  if (covered > 0) result.mean /= covered;
-  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, result);
-  result.share = area > 0 ? covered / area : 0;
-  return result;
-}
-
 /// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
 std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& others,
                                 const ExecutionContext& context) {
@@ -176,19 +152,6 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
   return result;
 }
 
-/// The pieces that lie, at least in part, between the sides of the wall.
-std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
-                                       const ExecutionContext& context) {
-  constexpr double least_share = 0.02;
-  std::vector<TopoDS_Face> result;
-  for (const TopoDS_Face& piece : pieces) {
-    context.check();
-    triangulate_middle(piece, wall.thickness);
-    if (coverage_of(piece, wall).share > least_share) result.push_back(piece);
-  }
-  return result;
-}
-
 }  // namespace
 
 void triangulate_middle(const TopoDS_Face& face, double thickness) {
@@ -198,13 +161,25 @@ void triangulate_middle(const TopoDS_Face& face, double thickness) {
   triangulate(face, std::min(0.2 * thickness, width > 0 ? 0.1 * width : thickness), turn);
 }
 
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall) {
-  return measured(face, wall, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
-    const auto position = position_in(wall, point);
-    if (!position) return std::nullopt;
-    so_far.faces.insert(position->faces.begin(), position->faces.end());
-    return position->thickness();
-  });
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, bool past_sides) {
+  triangulate_middle(face, wall.thickness);
+  Coverage result;
+  double area = 0, covered = 0;
+  for (const FaceSample& sample : sample_face(face, 16)) {
+    area += sample.area;
+    const auto position = past_sides ? std::nullopt : position_in(wall, sample.point);
+    if (!past_sides && !position) continue;
+    const double t = position ? position->thickness() : thickness_round(wall, sample.point);
+    if (position) result.faces.insert(position->faces.begin(), position->faces.end());
+    result.thinnest = covered > 0 ? std::min(result.thinnest, t) : t;
+    result.thickest = std::max(result.thickest, t);
+    result.mean += t * sample.area;
+    covered += sample.area;
+  }
+  if (covered > 0) result.mean /= covered;
+  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, result);
+  if (area > 0 && !past_sides) result.share = covered / area;
+  return result;
 }
 
 double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& point) {
@@ -213,16 +188,9 @@ double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& po
   return std::clamp(t, coverage.thinnest, coverage.thickest);
 }
 
-Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall) {
-  Coverage result = measured(face, wall, [&](const gp_Pnt& point, const Coverage&) {
-    return std::optional(thickness_round(wall, point));
-  });
-  result.share = 0;  // none of it lies between both sides
-  return result;
-}
-
 std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                      const std::vector<WallEnd>& ends, const ExecutionContext& context) {
+  constexpr double least_share = 0.02;
   std::vector<TopoDS_Shape> fences;
   for (const WallEnd& end : ends) {
     if (end.wall == wall) fences.push_back(end.fence);
@@ -231,8 +199,10 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   std::vector<TopoDS_Face> result;
   const std::set<int> never_met = left_out(walls, wall, ends);
   for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences, context)) {
-    const auto pieces = cut_by(part, near_faces(skin, never_met, part), context);
-    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], context)) result.push_back(piece);
+    for (const TopoDS_Face& piece : cut_by(part, near_faces(skin, never_met, part), context)) {
+      context.check();
+      if (coverage_of(piece, walls[wall]).share > least_share) result.push_back(piece);
+    }
   }
   return result;
 }
