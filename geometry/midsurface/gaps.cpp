@@ -133,17 +133,6 @@ bool runs_on_along_normals(const std::vector<Beside>& around) {
   return runs >= 0.9 * all;
 }
 
-/// Makes the common part of two shapes.
-void intersect(const TopoDS_Shape& a, const TopoDS_Shape& b, const ExecutionContext& context,
-               BRepAlgoAPI_Common& common) {
-  TopTools_ListOfShape first, second;
-  first.Append(a);
-  second.Append(b);
-  common.SetArguments(first);
-  common.SetTools(second);
-  under_limit(context, [&](const Message_ProgressRange& range) { common.Build(range); });
-}
-
 /// Cuts a face in two, so that no edge of the halves is closed. Empty if its surface has no local axes.
 std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContext& context) {
   std::list<BRepAlgoAPI_Common> result;  // a list, since its elements must not be copied
@@ -157,7 +146,8 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContex
     const gp_Pnt corner = frame->Location().Translated(-reach * (axis + axis.Crossed(away)));
     const gp_Ax2 place(corner, frame->Direction(), away);
     const TopoDS_Shape box = BRepPrimAPI_MakeBox(place, reach, 2 * reach, 2 * reach).Solid();
-    intersect(face.face(), box, context, result.emplace_back());
+    under_limit(context,
+                [&](const Message_ProgressRange& range) { result.emplace_back(face.face(), box, range); });
     if (result.back().HasErrors()) return {};
   }
   return result;
@@ -183,20 +173,16 @@ class OffsetFace {
   }
 
   TopoDS_Face face() const {
-    std::optional<BRepBuilderAPI_MakeFace> result;
     const TopoDS_Wire outer = BRepTools::OuterWire(face_);
-    const auto add = [&](const TopoDS_Wire& old) {
+    const auto moved = [&](const TopoDS_Wire& old) {
       BRepBuilderAPI_MakeWire wire;
       for (BRepTools_WireExplorer it(old, face_); it.More(); it.Next()) wire.Add(edge(it.Current()));
-      if (result)
-        result->Add(wire.Wire());
-      else
-        result.emplace(surface_, wire.Wire());
+      return wire.Wire();
     };
-    add(outer);
+    BRepBuilderAPI_MakeFace result(surface_, moved(outer));
     for (TopExp_Explorer it(face_, TopAbs_WIRE); it.More(); it.Next())
-      if (!it.Current().IsSame(outer)) add(TopoDS::Wire(it.Current()));
-    return result->Face();
+      if (!it.Current().IsSame(outer)) result.Add(moved(TopoDS::Wire(it.Current())));
+    return result.Face();
   }
 
  private:
@@ -442,14 +428,14 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& find
 /// Adds the common part of two solids.
 void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& context,
                 NumberedSolids& fillers) {
-  BRepAlgoAPI_Common common;
-  intersect(a.solid, b.solid, context, common);
-  if (common.HasErrors()) return;  // reported later as parts that are not connected
-  for (TopExp_Explorer it(common.Shape(), TopAbs_SOLID); it.More(); it.Next())
+  std::optional<BRepAlgoAPI_Common> common;
+  under_limit(context, [&](const Message_ProgressRange& range) { common.emplace(a.solid, b.solid, range); });
+  if (common->HasErrors()) return;  // reported later as parts that are not connected
+  for (TopExp_Explorer it(common->Shape(), TopAbs_SOLID); it.More(); it.Next())
     fillers.solids.push_back(it.Current());
   for (const DrawnFace& prism : {a, b}) {
     for (const auto& [face, number] : prism.numbers) {
-      for (const TopoDS_Shape& part : images(common, face))
+      for (const TopoDS_Shape& part : images(*common, face))
         if (!fillers.numbers.IsBound(part)) fillers.numbers.Bind(part, number);
     }
   }

@@ -3,6 +3,7 @@
 #include "geometry/midsurface/joining.hpp"
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRepTools_ReShape.hxx>
 #include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
@@ -197,26 +198,6 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
   }
 }
 
-/// The face without those of its edges that are in `edges`. \return null if there are none.
-TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
-  const BRep_Builder builder;
-  TopoDS_Shape result = face.EmptyCopied();
-  bool changed = false;
-  for (TopoDS_Iterator wires(face); wires.More(); wires.Next()) {
-    TopoDS_Shape wire = wires.Value().EmptyCopied();
-    bool cut = false, empty = true;
-    for (TopoDS_Iterator it(wires.Value()); it.More(); it.Next()) {
-      const bool left_out = edges.Contains(it.Value());
-      cut = cut || left_out;
-      empty = empty && left_out;
-      if (!left_out) builder.Add(wire, it.Value());
-    }
-    changed = changed || cut;
-    if (!empty) builder.Add(result, cut ? wire : wires.Value());
-  }
-  return changed ? TopoDS::Face(result) : TopoDS_Face();
-}
-
 /// Merges the faces of one wall, or those with its thickness at its steps, across edges that no other uses.
 void merge_wall(int wall, bool steps, const std::vector<Wall>& walls, const std::vector<JoinedFace>& all,
                 const TopTools_MapOfShape& kept_edges, std::vector<JoinedFace>& merged) {
@@ -286,19 +267,15 @@ bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector
 
 // Such edges remain where pieces that hung over were dropped.
 void drop_traces(std::vector<JoinedFace>& faces) {
-  TopTools_MapOfShape traces;
+  BRepTools_ReShape traces;
   for (const auto& [edge, around] : EdgeUses(faces)) {
     const bool inside =
         std::all_of(around.begin(), around.end(), [face = around.front().face](const EdgeUses::Use& use) {
           return use.face == face && use.orientation == TopAbs_INTERNAL;
         });
-    if (inside) traces.Add(edge);
+    if (inside) traces.Remove(edge);
   }
-  if (traces.IsEmpty()) return;
-  for (JoinedFace& face : faces) {
-    const TopoDS_Face clean = without_edges(face.face, traces);
-    if (!clean.IsNull()) face.face = clean;
-  }
+  for (JoinedFace& face : faces) face.face = TopoDS::Face(traces.Apply(face.face));
 }
 
 void orient_alike(std::vector<JoinedFace>& faces) {

@@ -291,19 +291,16 @@ void make_middle(const ExecutionContext& context, const std::function<void(doubl
 
 /// A compound with a shell for each connected part; with single faces if more than two of them share an edge.
 TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
+  std::set<std::size_t> branched;  // faces, one at each edge of more than two
+  for (const auto& [edge, around] : EdgeUses(faces))
+    if (around.size() > 2) branched.insert(around.front().face);
   std::vector<TopoDS_Shape> result;
   const BRep_Builder builder;
   for (const std::vector<std::size_t>& part : connected_parts(faces)) {
-    TopTools_IndexedDataMapOfShapeListOfShape around;
     TopoDS_Shell shell;
     builder.MakeShell(shell);
-    for (const std::size_t i : part) {
-      builder.Add(shell, faces[i].face);
-      TopExp::MapShapesAndAncestors(faces[i].face, TopAbs_EDGE, TopAbs_FACE, around);
-    }
-    const bool manifold = std::all_of(around.cbegin(), around.cend(),
-                                      [](const TopTools_ListOfShape& list) { return list.Extent() <= 2; });
-    if (manifold)
+    for (const std::size_t i : part) builder.Add(shell, faces[i].face);
+    if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return branched.count(i) != 0; }))
       result.push_back(shell);
     else
       for (const std::size_t i : part) result.push_back(faces[i].face);

@@ -592,6 +592,7 @@ class WallEnds {
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
+    ++open_[{wall, skin_.index_of(edge.beside().face())}];
     std::map<double, std::vector<NextWall>> nexts;  // by place
     for (const NextWall& next : next_walls(walls_, wall, edge)) nexts[next.at].push_back(next);
     for (const auto& [at, here] : nexts) {
@@ -602,23 +603,9 @@ class WallEnds {
   }
 
   /// Forgets the risers along which fences do not stand everywhere.
-  void keep_whole_risers(const std::vector<int>& surfaces) {
-    std::map<std::pair<int, int>, int> open;  // by wall and riser: edges between them without a fence
-    for (const WallEnd& end : ends_) {
-      if (end.riser >= 0) --open[{end.wall, end.riser}];
-    }
-    std::set<int> walls;
-    for (const auto& [key, count] : open) walls.insert(key.first);
-    for (const int wall : walls) {
-      for (const int index : both_sides(walls_[wall])) {
-        for (const FaceEdge& edge : borders_of(skin_.faces()[index], skin_, surfaces)) {
-          const auto entry = open.find({wall, skin_.index_of(edge.beside().face())});
-          if (entry != open.end()) ++entry->second;
-        }
-      }
-    }
+  void keep_whole_risers() {
     for (WallEnd& end : ends_) {
-      if (end.riser >= 0 && open[{end.wall, end.riser}] > 0) end.riser = -1;
+      if (end.riser >= 0 && open_[{end.wall, end.riser}] > 0) end.riser = -1;
     }
   }
 
@@ -655,8 +642,10 @@ class WallEnds {
     } else if (stands_on(walls_, wall, next.wall)) {
       for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t)) {
         WallEnd stretch = make_end(walls_, wall, next, part, beside);
-        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
+        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first())) {
           stretch.riser = skin_.index_of(edge.beside().face());
+          --open_[{wall, stretch.riser}];
+        }
         push(stretch, true, between);
       }
     } else {
@@ -721,6 +710,7 @@ class WallEnds {
   const std::vector<Wall>& walls_;
   /// For each wall and the next one, points on its middle at edges with fences.
   std::map<std::pair<int, int>, std::vector<gp_Pnt>> middles_;
+  std::map<std::pair<int, int>, int> open_;  ///< by wall and riser: edges between them without a fence
   std::vector<WallEnd> ends_;
   std::vector<int> sides_;  ///< see push()
   std::vector<Thinner> thinner_;
@@ -797,7 +787,7 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
     }
   }
   ends.add_thinner();
-  ends.keep_whole_risers(surfaces);
+  ends.keep_whole_risers();
   return ends.found();
 }
 

@@ -26,10 +26,12 @@ constexpr int samples_a_face = 24;
 const double most_slope = std::cos(30 * M_PI / 180);  // cosine of the largest angle between sides
 constexpr double least_share = 0.1;                   // share of the smaller face that must be paired
 
-/// How large a part of each of two faces faces the other.
+/// How large a part of each of two faces or surfaces faces the other.
 struct Facing {
   std::array<double, 2> areas{0, 0};  ///< area of the samples on each face that meet the other
   double thickness_area = 0;          ///< sum of thickness times area over these samples
+  double area() const { return areas[0] + areas[1]; }
+  double thickness() const { return thickness_area / area(); }
 };
 using Facings = std::map<std::pair<int, int>, Facing>;
 
@@ -83,10 +85,8 @@ void add_once(std::vector<int>& list, int value) {
 struct SurfacePair {
   std::array<int, 2> surfaces{};
   std::array<std::vector<int>, 2> faces;
-  Handle(Geom_Surface) middle;        ///< null if there is no exact one
-  std::array<double, 2> areas{0, 0};  ///< area of the samples on each surface that meet the other
-  double thickness_area = 0;          ///< sum of thickness times area over these samples
-  double area() const { return areas[0] + areas[1]; }
+  Handle(Geom_Surface) middle;  ///< null if there is no exact one
+  Facing facing{};
 };
 
 std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>& surfaces,
@@ -105,8 +105,8 @@ std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>&
     const bool ordered = surfaces[faces.first] == key.first;
     add_once(pair.faces[0], ordered ? faces.first : faces.second);
     add_once(pair.faces[1], ordered ? faces.second : faces.first);
-    pair.thickness_area += facing.thickness_area;
-    for (int side = 0; side < 2; ++side) pair.areas[side] += facing.areas[ordered ? side : 1 - side];
+    pair.facing.thickness_area += facing.thickness_area;
+    for (int side = 0; side < 2; ++side) pair.facing.areas[side] += facing.areas[ordered ? side : 1 - side];
   }
   return result;
 }
@@ -119,7 +119,7 @@ void drop_junctions(const Skin& skin, std::vector<SurfacePair>& pairs) {
   for (const SurfacePair& pair : pairs) {
     for (int side = 0; side < 2; ++side) {
       double& area = most[pair.surfaces[side]];
-      area = std::max(area, pair.areas[side]);
+      area = std::max(area, pair.facing.areas[side]);
     }
   }
   std::erase_if(pairs, [&](const SurfacePair& pair) {
@@ -127,7 +127,7 @@ void drop_junctions(const Skin& skin, std::vector<SurfacePair>& pairs) {
     const BRepAdaptor_Surface& b = skin.faces()[pair.faces[1].front()].surface();
     return a.GetType() == GeomAbs_Plane && b.GetType() == GeomAbs_Plane &&
            std::abs(a.Plane().Axis().Direction().Dot(b.Plane().Axis().Direction())) < leaning &&
-           pair.areas[0] < most[pair.surfaces[0]] && pair.areas[1] < most[pair.surfaces[1]];
+           pair.facing.areas[0] < most[pair.surfaces[0]] && pair.facing.areas[1] < most[pair.surfaces[1]];
   });
 }
 
@@ -175,9 +175,9 @@ std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pa
     for (int side = 0; side < 2; ++side) {
       const int from = side == 0 ? first : 1 - first;
       for (const int face : pair.faces[from]) add_once(wall.sides[side], face);
-      covered[side] += pair.areas[from];
+      covered[side] += pair.facing.areas[from];
     }
-    wall.thickness += pair.thickness_area;
+    wall.thickness += pair.facing.thickness_area;
   }
   wall.thickness /= covered[0] + covered[1];
   for (int side = 0; side < 2; ++side) {
@@ -254,7 +254,7 @@ std::vector<std::array<int, 2>> mutual_pairs(const std::vector<SurfacePair>& pai
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (const int surface : pairs[i].surfaces) {
       const auto [entry, is_new] = best.try_emplace(surface, i);
-      if (!is_new && pairs[i].area() > pairs[entry->second].area()) entry->second = i;
+      if (!is_new && pairs[i].facing.area() > pairs[entry->second].facing.area()) entry->second = i;
     }
   }
   std::vector<std::array<int, 2>> result;
@@ -295,7 +295,7 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
   const std::vector<MatchedSides> chains = matched_sides(skin, mutual_pairs(pairs));
   std::map<std::pair<int, int>, double> thickness;  // by surfaces
   for (const SurfacePair& pair : pairs)
-    thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.thickness_area / pair.area();
+    thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.facing.thickness();
   std::set<int> chained;   // surfaces
   std::vector<int> index;  // of each wall of the chains in `walls`; -1 = it cannot be fitted
   for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -381,7 +381,7 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
   std::vector<Wall> walls;
   double thickest = 0;
   for (SurfacePair& pair : pairs) {
-    const double thickness = pair.thickness_area / pair.area();
+    const double thickness = pair.facing.thickness();
     thickest = std::max(thickest, thickness);
     NearMiddle middle{pair.middle, 0};
     if (pair.middle.IsNull())
