@@ -53,21 +53,16 @@ bool between_sides(const Wall& wall, const gp_Pnt& point) {
                      [&](int face) { return is_near(face, wall, point) && wall.face(face).foot(point); });
 }
 
-/// How a point of a free edge lies in walls other than its face's own.
-struct InOthers {
-  bool within = false;      ///< inside one of them, as where a rib's rim continues to the plate's middle
-  std::set<int> halfway{};  ///< the walls on whose middle the point lies; they should share the edge
-};
-
-InOthers in_others(const std::vector<Wall>& walls, int own, const gp_Pnt& point) {
-  InOthers result;
+/// The walls other than its face's own on whose middle a point of a free edge lies: they should share the
+/// edge. Nothing if it lies in no other wall, as it does where a rib's rim continues to the plate's middle.
+std::optional<std::set<int>> halfway_in_others(const std::vector<Wall>& walls, int own, const gp_Pnt& point) {
+  std::optional<std::set<int>> result;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    if (wall == own) continue;
     const Wall& other = walls[wall];
-    if (!position_in(other, point) && !between_sides(other, point)) continue;
-    result.within = true;
+    if (wall == own || (!position_in(other, point) && !between_sides(other, point))) continue;
+    if (!result) result.emplace();
     const auto [first, second] = distances_to_sides(other, point);
-    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
+    if (std::abs(first - second) < 0.02 * (first + second)) result->insert(wall);
   }
   return result;
 }
@@ -294,10 +289,11 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
         astray += closes(skin, walls, fan, own) ? 0 : 1;
         continue;
       }
-      const InOthers others = in_others(walls, own, fan.point);
-      stray = stray || !others.within;
-      astray += others.within && !runs_across(walls, fan, own) ? 1 : 0;
-      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
+      const auto others = halfway_in_others(walls, own, fan.point);
+      stray = stray || !others;
+      if (!others) continue;
+      astray += runs_across(walls, fan, own) ? 0 : 1;
+      for (const int wall : *others) stray = ++halfway[wall] == 3 || stray;
     }
     // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
     const bool long_enough = length_of(edge) > 0.1 * walls[own].thickness;

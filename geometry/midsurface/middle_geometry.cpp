@@ -239,25 +239,22 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
 
 NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
-  if (s.GetType() != t.GetType()) return {};
-  NearMiddle result;
-  if (s.GetType() == GeomAbs_Cylinder) {
-    const gp_Cylinder first = s.Cylinder(), second = t.Cylinder();
+  const bool cylinders = s.GetType() == GeomAbs_Cylinder;
+  if (s.GetType() != t.GetType() || (!cylinders && s.GetType() != GeomAbs_Sphere)) return {};
+  const gp_Ax3 first = *frame_of(s), second = *frame_of(t);
+  const double radius = cylinders ? s.Cylinder().Radius() : s.Sphere().Radius(),
+               other = cylinders ? t.Cylinder().Radius() : t.Sphere().Radius();
+  gp_Vec apart(first.Location(), second.Location());
+  if (cylinders) {
     if (!first.Axis().IsParallel(second.Axis(), same_direction)) return {};
-    const gp_Vec along(first.Axis().Direction());
-    gp_Vec apart(first.Location(), second.Location());
+    const gp_Vec along(first.Direction());
     apart -= apart.Dot(along) * along;
-    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
-    result.surface = new Geom_CylindricalSurface(first.Position().Translated(0.5 * apart),
-                                                 0.5 * (first.Radius() + second.Radius()));
-  } else if (s.GetType() == GeomAbs_Sphere) {
-    const gp_Sphere first = s.Sphere(), second = t.Sphere();
-    const gp_Vec apart(first.Location(), second.Location());
-    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
-    result.surface = new Geom_SphericalSurface(first.Position().Translated(0.5 * apart),
-                                               0.5 * (first.Radius() + second.Radius()));
   }
-  return result.off <= tolerance ? result : NearMiddle();
+  const double off = off_between_rounds(apart.Magnitude(), radius, other);
+  if (off > tolerance) return {};
+  const gp_Ax3 between = first.Translated(0.5 * apart);
+  if (cylinders) return {new Geom_CylindricalSurface(between, 0.5 * (radius + other)), off};
+  return {new Geom_SphericalSurface(between, 0.5 * (radius + other)), off};
 }
 
 }  // namespace quadrille

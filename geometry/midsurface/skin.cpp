@@ -29,13 +29,12 @@ std::vector<SkinTriangle> triangles_of(const TopoDS_Face& face) {
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};
     mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-    const gp_Vec ab(mesh->Node(nodes[0]), mesh->Node(nodes[1]));
-    const gp_Vec ac(mesh->Node(nodes[0]), mesh->Node(nodes[2]));
     SkinTriangle triangle;
     for (int j = 0; j < 3; ++j) {
       triangle.points[j] = mesh->Node(nodes[j]).Transformed(place.Transformation());
       triangle.uv[j] = mesh->UVNode(nodes[j]);
     }
+    const gp_Vec ab(triangle.points[0], triangle.points[1]), ac(triangle.points[0], triangle.points[2]);
     triangle.area = 0.5 * ab.Crossed(ac).Magnitude();
     result.push_back(triangle);
   }

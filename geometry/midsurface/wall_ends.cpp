@@ -716,17 +716,6 @@ class WallEnds {
   std::vector<Thinner> thinner_;
 };
 
-/// (faces of the skin) the wall that each is a side of; -1 = none.
-std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls) {
-  std::vector<int> result(skin.faces().size(), -1);
-  for (std::size_t wall = walls.size(); wall-- > 0;) {
-    for (const auto& side : walls[wall].sides) {
-      for (const int face : side) result[face] = static_cast<int>(wall);
-    }
-  }
-  return result;
-}
-
 /// The angle between the normals of `face` and `beside` at the edge, if `beside` rises from the face away
 /// from the material: tangent to it (0) or at an obtuse angle.
 std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
@@ -753,7 +742,7 @@ bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
 std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
                                                              const std::vector<Wall>& walls) {
   std::map<int, std::vector<FilletBorder>> result;
-  const std::vector<int> wall_of = walls_of_faces(skin, walls);
+  const std::vector<int> wall_of = walls_of_faces(walls);
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];

@@ -26,14 +26,12 @@ namespace {
 /// The faces that a wall's middle surface may have to cover: its sides, and adjacent faces that belong to no
 /// wall, such as fillets.
 std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
-  std::set<int> in_walls, result;
-  for (const Wall& other : walls) {
-    for (const auto& side : other.sides) in_walls.insert(side.begin(), side.end());
-  }
+  const std::vector<int> wall_of = walls_of_faces(walls);
+  std::set<int> result;
   for (const int face : both_sides(walls[wall])) {
     result.insert(face);
     for (const auto& [edge, neighbor] : skin.neighbors(skin.faces()[face]))
-      if (in_walls.count(neighbor) == 0) result.insert(neighbor);
+      if (wall_of[neighbor] < 0) result.insert(neighbor);
   }
   return {result.begin(), result.end()};
 }

@@ -445,4 +445,11 @@ std::vector<int> both_sides(const Wall& wall) {
   return faces;
 }
 
+std::vector<int> walls_of_faces(const std::vector<Wall>& walls) {
+  std::vector<int> result(walls.front().skin->faces().size(), -1);
+  for (int wall = static_cast<int>(walls.size()) - 1; wall >= 0; --wall)
+    for (const int face : both_sides(walls[wall])) result[face] = wall;
+  return result;
+}
+
 }  // namespace quadrille

@@ -58,4 +58,8 @@ double thickness_round(const Wall& wall, const gp_Pnt& point);
 /// All faces of a wall.
 std::vector<int> both_sides(const Wall& wall);
 
+/// For each face of the skin the wall that it is a side of, the first one; -1 = none. \param walls one or
+/// more
+std::vector<int> walls_of_faces(const std::vector<Wall>& walls);
+
 }  // namespace quadrille
