@@ -3,9 +3,9 @@
 #include "geometry/midsurface/checks.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <BRepGProp_Face.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
@@ -202,11 +202,17 @@ double section_counted_twice(const std::vector<Wall>& walls, const std::vector<J
   return section;
 }
 
-/// Unit normal of a face; none where the surface is singular.
-std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+/// Normal of a face, of any length. BRepGProp_Face would look at all edges of the face each time.
+gp_Vec normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
   gp_Pnt at;
-  gp_Vec normal;
-  BRepGProp_Face(face).Normal(uv.X(), uv.Y(), at, normal);
+  gp_Vec du, dv;
+  BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
+  return (face.Orientation() == TopAbs_REVERSED ? -1 : 1) * du.Crossed(dv);
+}
+
+/// Unit normal of a face; none where the surface is singular.
+std::optional<gp_Dir> direction_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+  const gp_Vec normal = normal_at(face, uv);
   return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
 }
 
@@ -238,8 +244,7 @@ Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
   const gp_Pnt2d uv =
       ShapeAnalysis_Surface(BRep_Tool::Surface(face)).ValueOfUV(result.point, Precision::Confusion());
-  gp_Pnt at;
-  BRepGProp_Face(face).Normal(uv.X(), uv.Y(), at, result.normal);
+  result.normal = normal_at(face, uv);
   if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
   if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
   result.away = result.along.Crossed(result.normal);
@@ -362,7 +367,7 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
     if (faces[i].step) continue;
     std::vector<double> told;  // over what the rays measure
     for (const FaceSample& sample : sample_face(faces[i].face, 16)) {
-      const auto normal = normal_at(faces[i].face, sample.uv);
+      const auto normal = direction_at(faces[i].face, sample.uv);
       if (!normal) continue;
       const auto up = skin.first_hit(sample.point, *normal);
       const auto down = skin.first_hit(sample.point, normal->Reversed());
@@ -399,7 +404,7 @@ std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<Joine
       }
     }
     const auto sample = inner_sample(own.face);
-    const auto normal = sample ? normal_at(own.face, sample->uv) : std::nullopt;
+    const auto normal = sample ? direction_at(own.face, sample->uv) : std::nullopt;
     if (!enclosed || standing.empty() || !normal) continue;
     std::array<bool, 2> on_side{};  // behind, ahead
     for (const std::size_t other : standing) {

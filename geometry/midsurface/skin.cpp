@@ -193,7 +193,8 @@ std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
 
 void SkinFace::prepare_hits(double near) {
   near_ = near;
-  if (has_many_holes(face_)) return;
+  has_many_holes_ = has_many_holes(face_);
+  if (has_many_holes_) return;
   triangles_ = triangles_of(face_);
   std::vector<Bnd_Box> boxes(triangles_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -205,7 +206,7 @@ void SkinFace::prepare_hits(double near) {
 
 std::vector<SkinFace::LineHit> SkinFace::hits(const gp_Lin& line, double from, double to) const {
   std::vector<LineHit> result;
-  if (has_many_holes(face_)) {
+  if (has_many_holes_) {
     const gp_Pln plane = adaptor_->Plane();
     const gp_Vec normal(plane.Axis().Direction());
     const double slope = gp_Vec(line.Direction()).Dot(normal);

@@ -98,6 +98,7 @@ class SkinFace {
   std::vector<SkinTriangle> triangles_;  ///< empty if the face has many holes
   BoxTree boxes_;                        ///< of the triangles
   double near_ = 0;                      ///< see prepare_hits()
+  bool has_many_holes_ = false;          ///< lines are then intersected with its plane
 };
 
 /// The faces of one solid.
