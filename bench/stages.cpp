@@ -17,7 +17,7 @@
 
 #include "field.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille {

@@ -36,6 +36,9 @@ TIME_LIMIT = 20
 GIGABYTE = 1 << 30
 #: Users that nobody is. Each run under a limit on processes has one of its own, since the limit counts a user's.
 NOBODIES = itertools.cycle(range(20000 + os.getpid() % 20000, 60000))
+#: What users add to sizes.
+WAYS = [["--imprint"], ["--proximity", 2], ["--proximity-walls", 2], ["--gradation", "space"], ["--keep-features"],
+        ["--aspect", 1], ["--rings", 2], ["--chord-error", "3%"], ["--strict"]]
 COLUMNS = ["meshes", "reported errors", "reported crashes", "UNREPORTED", "late", "invalid", "left over"]
 
 
@@ -126,6 +129,8 @@ class Run:
                 return "UNREPORTED", f"exit code {self.code}: {self.message[:200]}"
         elif 2 not in self.closed and (len(lines) != 1 or not lines[0].startswith("quadrille: ")):
             return "UNREPORTED", f"exit code {self.code}, not one sentence: {self.message[:200]!r}"
+        elif "without a description" in self.message:
+            return "UNREPORTED", self.message
         elif self.cpu > LATE_SECONDS and "time limit" not in self.message and not self.limits and self.kill_after is None:
             return "late", f"{self.cpu:.1f} s of CPU until: {self.message[:200]}"
         elif self.peak > LATE_BYTES and not self.limits:  # with limits, --force may take what they leave
@@ -277,16 +282,20 @@ class Attack:
         yield self.mesh(folder, rng.choice(self.own), "--time-limit", TIME_LIMIT, *arguments, limits=limits).end()
 
     def sizes(self, rng, folder):
-        """Random sizes, and the same bytes from one thread and from three."""
+        """Random sizes in various ways, and the same bytes from one thread and from three."""
         options = ["--elements-per-diagonal", f"{10 ** rng.uniform(0.5, 1.85):.4g}", "--order", rng.choice([1, 1, 2]),
                    "--strategy", rng.choice(["subdivide", "subdivide", "direct"]), "--time-limit", 3 * TIME_LIMIT]
         if rng.random() < 0.3:
             options += ["--growth", f"{10 ** rng.uniform(-1.5, 0.5):.3g}"]
         if rng.random() < 0.3:
             options += ["--curvature", f"{rng.choice([0, 6, 20, 40])}"]
+        for way in rng.sample(WAYS, rng.choice([0, 1, 2])):
+            options += way
         model = rng.choice(self.parts)
         run = self.mesh(folder, model, *options, "--threads", 1, "--report", "r.json", expected=("a.msh", "r.json"))
-        yield run.end()
+        column, problem = run.end()
+        # The files are sound.
+        yield ("UNREPORTED", run.message) if column == "reported crashes" else (column, problem)
         if run.code == 0 and rng.random() < 0.25:
             first = (folder / "a.msh").read_bytes()
             os.unlink(folder / "a.msh")

@@ -10,9 +10,10 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/free_memory.hpp"
+#include "geometry/base/process_usage.hpp"
 
 namespace quadrille {
 
@@ -47,6 +48,10 @@ void require_readable(const std::filesystem::path& path) {
 
 std::string why_unwritable(const std::filesystem::path& folder) {
   return why_not(folder, W_OK | X_OK);
+}
+
+std::string lower_ending(const std::filesystem::path& path) {
+  return boost::algorithm::to_lower_copy(path.extension().string());
 }
 
 }  // namespace quadrille

@@ -1,10 +1,14 @@
 #pragma once
-/// Measured numbers and points as messages show them. Values that users gave are shown as given. Internal.
+/// Measured numbers, points and lists of faces as messages show them. Values that users gave are shown as
+/// given. Internal.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "geometry/base/vector.hpp"
 
@@ -25,6 +29,16 @@ inline std::string place_text(const Vector3& point) {
   const double least = rounding_share * point.cwiseAbs().maxCoeff();
   const auto shown = [&](double x) { return std::abs(x) <= least ? 0.0 : x; };
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", shown(point.x()), shown(point.y()), shown(point.z()));
+}
+
+/// "Face3, Face7": at most twelve names, and how many more there are.
+inline std::string face_names(const std::vector<int>& numbers) {
+  constexpr std::size_t names_shown = 12;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(names_shown, numbers.size()); ++i)
+    names.push_back(fmt::format("Face{}", numbers[i]));
+  if (numbers.size() > names_shown) names.push_back(fmt::format("{} more", numbers.size() - names_shown));
+  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace quadrille

@@ -2,11 +2,11 @@
 
 #include "geometry/base/printable.hpp"
 
-#include <array>
+#include <fmt/format.h>
+#include <boost/locale/utf.hpp>
+
 #include <cstddef>
 #include <cstdint>
-
-#include <fmt/format.h>
 
 namespace quadrille {
 
@@ -19,19 +19,11 @@ struct Character {
 
 /// The first character of a text that is not empty.
 Character first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 0x80) return {byte(0), 1};
-  constexpr std::array<std::uint32_t, 5> least_code{0, 0, 0x80, 0x800, 0x10000};  // by number of bytes
-  const std::size_t bytes = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
-  if (byte(0) < 0xc0 || byte(0) > 0xf7 || text.size() < bytes) return {};
-  std::uint32_t code = byte(0) & (0x7fU >> bytes);
-  for (std::size_t i = 1; i < bytes; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return {};
-    code = code << 6U | (byte(i) & 0x3fU);
-  }
-  const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
-  if (code < least_code[bytes] || code > 0x10ffff || is_surrogate) return {};
-  return {code, bytes};
+  using boost::locale::utf::utf_traits;
+  const char* next = text.data();
+  const std::uint32_t code = utf_traits<char>::decode(next, next + text.size());
+  if (!boost::locale::utf::is_valid_codepoint(code)) return {};
+  return {code, static_cast<std::size_t>(next - text.data())};
 }
 
 bool is_obeyed(std::uint32_t code) {

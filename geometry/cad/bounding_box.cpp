@@ -7,6 +7,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>
+#include <Eigen/Core>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
@@ -21,51 +22,26 @@ namespace quadrille {
 namespace {
 
 /// How far something reaches along x, y, z, -x, -y and -z.
-class Reach {
- public:
-  Reach() { reach_.fill(-INFINITY); }
+using Reach = Eigen::Array<double, 6, 1>;
 
-  double& operator[](int direction) { return reach_[direction]; }
-  double operator[](int direction) const { return reach_[direction]; }
+const Reach nowhere = Reach::Constant(-INFINITY);
 
-  static double along(int direction, const Vector3& p) {
-    return direction < 3 ? p[direction] : -p[direction - 3];
-  }
-
-  void add(const Vector3& p) {
-    for (int d = 0; d < 6; ++d) reach_[d] = std::max(reach_[d], along(d, p));
-  }
-  void add(const Bnd_Box& box) {
-    if (box.IsVoid()) return;
-    add(to_vector(box.CornerMin()));
-    add(to_vector(box.CornerMax()));
-  }
-  void add(const Reach& other) {
-    for (int d = 0; d < 6; ++d) reach_[d] = std::max(reach_[d], other[d]);
-  }
-
-  bool empty() const { return reach_[0] == -INFINITY; }
-  bool finite() const {
-    return std::all_of(reach_.begin(), reach_.end(), [](double r) { return std::abs(r) < 1e50; });
-  }
-  double diagonal() const {
-    return Vector3(reach_[0] + reach_[3], reach_[1] + reach_[4], reach_[2] + reach_[5]).norm();
-  }
-  bool exceeds(const Reach& other, double by) const {
-    for (int d = 0; d < 6; ++d) {
-      if (reach_[d] > other[d] + by) return true;
-    }
-    return false;
-  }
-
- private:
-  std::array<double, 6> reach_;
-};
+Reach reach_of(const Vector3& p) {
+  return (Reach() << p, -p).finished();
+}
 
 Reach reach_of(const TopoDS_Shape& part) {
-  Reach reach;
-  reach.add(box_of(part));
-  return reach;
+  const Bnd_Box box = box_of(part);
+  if (box.IsVoid()) return nowhere;
+  return reach_of(to_vector(box.CornerMin())).max(reach_of(to_vector(box.CornerMax())));
+}
+
+bool is_finite(const Reach& reach) {
+  return (reach.abs() < 1e50).all();
+}
+
+double diagonal_of(const Reach& reach) {
+  return (reach.head<3>() + reach.tail<3>()).matrix().norm();
 }
 
 /// A curve (whose second parameter has no range) or a surface.
@@ -83,17 +59,16 @@ void extend(Reach& known, const Patch& patch, double slack) {
     return patch.cells[axis] > 0 ? (patch.high[axis] - patch.low[axis]) / patch.cells[axis] : 0;
   };
   const Vector2 cell(step(0), step(1));
-  Reach best;
+  Reach best = known - slack;
   std::array<Vector2, 6> at;
   std::array<bool, 6> found{};
-  for (int d = 0; d < 6; ++d) best[d] = known[d] - slack;
   /// Keeps a point for each direction in which it is the farthest so far.
   const auto take = [&](int d, const Vector2& uv, const Vector3& p) {
-    if (!(Reach::along(d, p) > best[d]) || !patch.inside(uv)) return false;
-    best[d] = Reach::along(d, p);
+    const double reached = d < 3 ? p[d] : -p[d - 3];
+    if (!(reached > best[d]) || !patch.inside(uv)) return;
+    best[d] = reached;
     at[d] = uv;
     found[d] = true;
-    return true;
   };
   for (int i = 0; i <= patch.cells[0]; ++i) {
     for (int j = 0; j <= patch.cells[1]; ++j) {
@@ -119,7 +94,7 @@ void extend(Reach& known, const Patch& patch, double slack) {
       if (at[d] == center) scale *= 0.5;
     }
   }
-  known.add(best);
+  known = known.max(best);
 }
 
 constexpr double slack_share = 0.05;  // of a patch's size: an arc between two samples is lower
@@ -160,12 +135,12 @@ void extend(Reach& known, const CadShape& shape, const CadFace& face, double siz
 /// Extends `known` to where a part ends if its own box reaches farther, or else to that box.
 template <class Measure>
 void extend_to(Reach& known, const Reach& own, double margin, const Measure& measure) {
-  if (!own.exceeds(known, margin)) return;
+  if (!(own > known + margin).any()) return;
   try {
-    if (!own.finite()) throw Standard_Failure("without end");
-    measure(own.diagonal());
+    if (!is_finite(own)) throw Standard_Failure("without end");
+    measure(diagonal_of(own));
   } catch (const Standard_Failure&) {
-    known.add(own);
+    known = known.max(own);
   }
 }
 
@@ -173,30 +148,30 @@ void extend_to(Reach& known, const Reach& own, double margin, const Measure& mea
 
 BoundingBox bounding_box(const CadShape& shape) {
   IdVector<FaceId, Reach> own(shape.faces.size());
-  Reach wide, known;
+  Reach wide = nowhere, known = nowhere;
   double tolerance = 0;
   for (const FaceId id : shape.faces.ids()) {
     own[id] = reach_of(shape.faces[id].face);
-    wide.add(own[id]);
+    wide = wide.max(own[id]);
     tolerance = std::max(tolerance, shape.faces[id].tolerance);
   }
   for (TopExp_Explorer it(shape.shape, TopAbs_EDGE, TopAbs_FACE); it.More(); it.Next())
-    known.add(reach_of(it.Current()));
+    known = known.max(reach_of(it.Current()));
   for (TopExp_Explorer it(shape.shape, TopAbs_VERTEX, TopAbs_EDGE); it.More(); it.Next())
-    known.add(reach_of(it.Current()));
+    known = known.max(reach_of(it.Current()));
   // The boxes of some trimmed surfaces (tori that meet their axis) do not contain the bounding edges.
   for (const CadEdge& edge : shape.edges) {
     if (edge.degenerate || !(edge.length > 0)) continue;
     tolerance = std::max(tolerance, edge.tolerance);
     const BRepAdaptor_Curve curve(edge.edge);
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0})
-      known.add(to_vector(curve.Value(edge.first + share * (edge.last - edge.first))));
+      known = known.max(reach_of(to_vector(curve.Value(edge.first + share * (edge.last - edge.first)))));
   }
-  wide.add(known);
-  if (wide.empty()) return {};
+  wide = wide.max(known);
+  if (wide[0] == -INFINITY) return {};
   // Sides that are right within tolerances stay unchanged, and so do the default sizes, which depend on them.
-  const double margin = 1e-5 * wide.diagonal() + 2 * tolerance;
-  if (wide.finite() && wide.exceeds(known, margin)) {
+  const double margin = 1e-5 * diagonal_of(wide) + 2 * tolerance;
+  if (is_finite(wide) && (wide > known + margin).any()) {
     for (const CadEdge& edge : shape.edges) {
       if (edge.degenerate || !(edge.length > 0)) continue;
       extend_to(known, reach_of(edge.edge), margin, [&](double size) { extend(known, edge, size); });
@@ -204,12 +179,9 @@ BoundingBox bounding_box(const CadShape& shape) {
     for (const FaceId id : shape.faces.ids()) {
       extend_to(known, own[id], margin, [&](double size) { extend(known, shape, shape.faces[id], size); });
     }
-    for (int d = 0; d < 6; ++d) {
-      if (wide[d] > known[d] + margin) wide[d] = known[d];
-    }
-    wide.add(known);
+    wide = (wide > known + margin).select(known, wide).max(known);
   }
-  return {{-wide[3], -wide[4], -wide[5]}, {wide[0], wide[1], wide[2]}};
+  return {-wide.tail<3>(), wide.head<3>()};
 }
 
 Bnd_Box box_of(const TopoDS_Shape& part) {

@@ -20,7 +20,6 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_access.hpp"
-#include "geometry/base/file_ending.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/imprinting.hpp"

@@ -81,6 +81,18 @@ bool has_open_seam(const TopoDS_Shape& face, double tolerance) {
   return false;
 }
 
+/// Asked for the curve of an edge on a face that is not made yet, which BRepTools_Modifier does where it only
+/// wants a vertex's tolerance, OpenCASCADE crashes.
+class SweptToElementary : public ShapeCustom_SweptToElementary {
+ public:
+  Standard_Boolean NewCurve2d(const TopoDS_Edge& edge, const TopoDS_Face& face, const TopoDS_Edge& new_edge,
+                              const TopoDS_Face& new_face, Handle(Geom2d_Curve) & curve,
+                              Standard_Real& tolerance) override {
+    return !new_face.IsNull() &&
+           ShapeCustom_SweptToElementary::NewCurve2d(edge, face, new_edge, new_face, curve, tolerance);
+  }
+};
+
 /// The general fuse of a model's parts with elementary surfaces and closed seams.
 class Fuse {
  public:
@@ -116,7 +128,7 @@ class Fuse {
   /// such surfaces graze each other, the fuse may take minutes.
   TopoDS_Shape elementary(const TopoDS_Shape& shape) {
     BRepTools_Modifier modifier(shape);
-    modifier.Perform(new ShapeCustom_SweptToElementary);
+    modifier.Perform(new SweptToElementary);
     const TopoDS_Shape result = modifier.ModifiedShape(shape).Oriented(shape.Orientation());
     TopTools_IndexedMapOfShape before, after;
     TopExp::MapShapes(shape, before);

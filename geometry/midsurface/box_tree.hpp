@@ -11,7 +11,7 @@ namespace quadrille {
 
 class BoxTree {
  public:
-  explicit BoxTree(const std::vector<Bnd_Box>& boxes);
+  explicit BoxTree(const std::vector<Bnd_Box>& boxes = {});
   /// Indices, ascending, of the boxes that a line meets between two parameters. Time: logarithmic in the
   /// boxes.
   std::vector<std::size_t> met(const gp_Lin& line, double from, double to) const;

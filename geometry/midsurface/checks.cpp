@@ -6,6 +6,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
+#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Precision.hxx>
 #include <ShapeAnalysis_Surface.hxx>
@@ -27,72 +28,62 @@ namespace {
 
 /// Whether a face's surface counts at a point: the point may lie on the other side of the wall and, below the
 /// skin of the plate on which the wall stands, past the end of the face.
-bool is_near(const SkinFace& face, const Wall& wall, const gp_Pnt& point) {
-  return face.box().Distance(Bnd_Box(point, point)) <= 1.5 * wall.thickness;
+bool is_near(int face, const Wall& wall, const gp_Pnt& point) {
+  return wall.face(face).box().Distance(Bnd_Box(point, point)) <= 1.5 * wall.thickness;
 }
 
-/// The distance of a point from the nearest surface of each side of a wall; skin.size() if none is near.
-std::array<double, 2> distances_to_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  std::array<double, 2> result{skin.size(), skin.size()};
+/// The distance of a point from the nearest surface of each side of a wall; the solid's size if none is
+/// near.
+std::array<double, 2> distances_to_sides(const Wall& wall, const gp_Pnt& point) {
+  std::array<double, 2> result{wall.skin->size(), wall.skin->size()};
   for (int side = 0; side < 2; ++side) {
-    for (const int index : wall.sides[side]) {
-      const SkinFace& face = skin.faces()[index];
-      if (!is_near(face, wall, point)) continue;
-      result[side] = std::min(result[side], face.point(face.closest(point)).Distance(point));
-    }
+    for (const int face : wall.sides[side])
+      if (is_near(face, wall, point)) result[side] = std::min(result[side], wall.face(face).distance(point));
   }
   return result;
 }
 
 /// Whether the point lies between the surfaces of a wall's sides, with a face of at least one side above or
 /// below it. Where another wall stands on this one, the other side is interrupted.
-bool between_sides(const Skin& skin, const Wall& wall, const gp_Pnt& point) {
-  const auto [first, second] = distances_to_sides(skin, wall, point);
+bool between_sides(const Wall& wall, const gp_Pnt& point) {
+  const auto [first, second] = distances_to_sides(wall, point);
   if (first + second >= 1.05 * wall.thickness) return false;
   const std::vector<int> sides = both_sides(wall);
-  return std::any_of(sides.begin(), sides.end(), [&](int index) {
-    const SkinFace& face = skin.faces()[index];
-    return is_near(face, wall, point) && face.foot(point);
-  });
+  return std::any_of(sides.begin(), sides.end(),
+                     [&](int face) { return is_near(face, wall, point) && wall.face(face).foot(point); });
 }
 
-/// How a point of a free edge lies in walls other than its face's own.
-struct InOthers {
-  bool within = false;      ///< inside one of them, as where a rib's rim continues to the plate's middle
-  std::set<int> halfway{};  ///< the walls on whose middle the point lies; they should share the edge
-};
-
-InOthers in_others(const Skin& skin, const std::vector<Wall>& walls, int own, const gp_Pnt& point) {
-  InOthers result;
+/// The walls other than its face's own on whose middle a point of a free edge lies: they should share the
+/// edge. Nothing if it lies in no other wall, as it does where a rib's rim continues to the plate's middle.
+std::optional<std::set<int>> halfway_in_others(const std::vector<Wall>& walls, int own, const gp_Pnt& point) {
+  std::optional<std::set<int>> result;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    if (wall == own) continue;
     const Wall& other = walls[wall];
-    if (!position_in(other, skin, point) && !between_sides(skin, other, point)) continue;
-    result.within = true;
-    const auto [first, second] = distances_to_sides(skin, other, point);
-    if (std::abs(first - second) < 0.02 * (first + second)) result.halfway.insert(wall);
+    if (wall == own || (!position_in(other, point) && !between_sides(other, point))) continue;
+    if (!result) result.emplace();
+    const auto [first, second] = distances_to_sides(other, point);
+    if (std::abs(first - second) < 0.02 * (first + second)) result->insert(wall);
   }
   return result;
 }
 
 /// Whether most of a face lies inside walls, as the riser of a step does. No free edge lies on a riser.
-bool across_a_wall(const Skin& skin, const std::vector<Wall>& walls, const SkinFace& face) {
+bool across_a_wall(const std::vector<Wall>& walls, const SkinFace& face) {
   double across = 0;
   for (const FaceSample& sample : face.samples(8)) {
-    const auto holds = [&](const Wall& wall) { return position_in(wall, skin, sample.point).has_value(); };
+    const auto holds = [&](const Wall& wall) { return position_in(wall, sample.point).has_value(); };
     if (std::any_of(walls.begin(), walls.end(), holds)) across += sample.area;
   }
   return across > 0.5 * face.area();
 }
 
 /// Whether the middle leaves the material through a side of the wall.
-bool leaves_through(const Wall& wall, const Skin& skin, const Fan& fan) {
-  const auto position = position_in(wall, skin, fan.point);
+bool leaves_through(const Wall& wall, const Fan& fan) {
+  const auto position = position_in(wall, fan.point);
   if (!position) return false;
   for (int side = 0; side < 2; ++side) {
     if (position->feet[side].Distance(fan.point) > 1e-3 * wall.thickness) continue;
-    const SkinFace& face = skin.faces()[position->faces[side]];
-    const auto outward = face.outward(face.closest(fan.point));
+    const auto outward = wall.face(position->faces[side]).outward_at(fan.point);
     return outward && gp_Vec(*outward).Dot(fan.away) > 0.5;
   }
   return false;
@@ -102,20 +93,15 @@ bool leaves_through(const Wall& wall, const Skin& skin, const Fan& fan) {
 /// of the same face. Linear in the faces, for points that a check has found wrong.
 std::vector<int> nearest_faces(const Skin& skin, const gp_Pnt& point) {
   const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(point).Vertex();
-  std::map<int, double> distances;  // by number: a face that was cut counts as one
+  std::set<std::pair<double, int>> order;  // the nearest first
   for (const SkinFace& face : skin.faces()) {
     const BRepExtrema_DistShapeShape distance(face.face(), vertex);
-    if (!distance.IsDone() || distance.NbSolution() == 0) continue;
-    double& least = distances.try_emplace(face.number(), skin.size()).first->second;
-    least = std::min(least, distance.Value());
+    if (distance.IsDone() && distance.NbSolution() > 0) order.emplace(distance.Value(), face.number());
   }
-  std::vector<int> result;
-  result.reserve(distances.size());
-  for (const auto& [number, distance] : distances) result.push_back(number);
-  std::stable_sort(result.begin(), result.end(), [&](int a, int b) { return distances[a] < distances[b]; });
-  if (result.size() > 2) result.resize(2);
-  std::sort(result.begin(), result.end());
-  return result;
+  std::set<int> result;  // a face that was cut counts as one
+  for (const auto& [distance, number] : order)
+    if (result.size() < 2) result.insert(number);
+  return {result.begin(), result.end()};
 }
 
 /// Whether the skin closes the wall `own` at a point of the skin: no material is behind the point, and it
@@ -124,19 +110,17 @@ bool closes(const Skin& skin, const std::vector<Wall>& walls, const Fan& fan, in
   const double step = 0.02 * walls[own].thickness;
   const gp_Pnt behind = fan.point.Translated(step * fan.away);
   if (skin.in_material(behind) && skin.faces_at(behind, 1e-3 * step).empty()) return false;
-  return !leaves_through_side(skin, walls, own, fan);
+  return !leaves_through_side(walls, own, fan);
 }
 
 /// Whether an edge is at more than 30 degrees to the nearest side of a wall.
-bool is_steep(const Skin& skin, const Wall& wall, const Fan& fan) {
-  double nearest = skin.size();
+bool is_steep(const Wall& wall, const Fan& fan) {
+  double nearest = HUGE_VAL;
   bool result = false;
-  for (const int index : both_sides(wall)) {
-    const SkinFace& face = skin.faces()[index];
+  for (const int face : both_sides(wall)) {
     if (!is_near(face, wall, fan.point)) continue;
-    const gp_Pnt2d uv = face.closest(fan.point);
-    const double distance = face.point(uv).Distance(fan.point);
-    const auto outward = face.outward(uv);
+    const double distance = wall.face(face).distance(fan.point);
+    const auto outward = wall.face(face).outward_at(fan.point);
     if (!outward || distance >= nearest) continue;
     nearest = distance;
     result = std::abs(fan.along.Dot(gp_Vec(*outward))) > 0.5;
@@ -146,11 +130,11 @@ bool is_steep(const Skin& skin, const Wall& wall, const Fan& fan) {
 
 /// Whether an edge runs through the thickness of another wall, as the rim of a rib does below the skin of its
 /// plate, up to the plate's middle.
-bool runs_across(const Skin& skin, const std::vector<Wall>& walls, const Fan& fan, int own) {
+bool runs_across(const std::vector<Wall>& walls, const Fan& fan, int own) {
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     if (wall == own) continue;
-    const auto [first, second] = distances_to_sides(skin, walls[wall], fan.point);
-    if (first + second < 1.05 * walls[wall].thickness && is_steep(skin, walls[wall], fan)) return true;
+    const auto [first, second] = distances_to_sides(walls[wall], fan.point);
+    if (first + second < 1.05 * walls[wall].thickness && is_steep(walls[wall], fan)) return true;
   }
   return false;
 }
@@ -164,7 +148,7 @@ void list_unpaired(const Skin& skin, const std::vector<Wall>& walls, const std::
   for (const SkinFace& face : skin.faces()) {
     // Bevels, and strips that are left where solids were joined, belong to no wall.
     const bool narrow = width_of(face.face()) < 0.5 * thinnest;
-    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(skin, walls, face))
+    if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(walls, face))
       result.unpaired.push_back(face.number());
   }
 }
@@ -179,11 +163,10 @@ double common_section(double angle, double first, double second) {
 
 /// The area of a cross-section through an edge that counts to several of the walls that meet there; 0 for
 /// fewer than three. \param meeting out: the walls
-double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
-                             const std::vector<JoinedFace>& faces, const EdgeUses& uses, int edge,
-                             std::set<int>& meeting) {
+double section_counted_twice(const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                             const EdgeUses::UsedEdge& edge, std::set<int>& meeting) {
   std::size_t meet = 0;
-  for (const EdgeUses::Use& use : uses.uses(edge)) {
+  for (const EdgeUses::Use& use : edge.uses) {
     if (!faces[use.face].step) meet += use.orientation == TopAbs_INTERNAL ? 2 : 1;
   }
   if (meet < 3) return 0;
@@ -192,13 +175,13 @@ double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
   };
   std::vector<Half> halves;
   gp_Vec zero;
-  for (const EdgeUses::Use& use : uses.uses(edge)) {
+  for (const EdgeUses::Use& use : edge.uses) {
     const JoinedFace& face = faces[use.face];
     if (face.step) continue;
-    const Fan fan = fan_at(TopoDS::Edge(uses.edge(edge).Oriented(use.orientation)), face.face, 0.5);
+    const Fan fan = fan_at(TopoDS::Edge(edge.edge.Oriented(use.orientation)), face.face, 0.5);
     if (halves.empty()) zero = fan.away;
     const Coverage& coverage = face.coverage;
-    const double thickness = thickness_at(coverage, walls[face.wall], skin, fan.point) - coverage.added;
+    const double thickness = thickness_at(coverage, walls[face.wall], fan.point) - coverage.added;
     meeting.insert(face.wall);
     const auto add = [&](const gp_Vec& away) {
       if (zero.Magnitude() < 0.5 || away.Magnitude() < 0.5) return;
@@ -219,12 +202,17 @@ double section_counted_twice(const Skin& skin, const std::vector<Wall>& walls,
   return section;
 }
 
-/// Unit normal of the surface of a face; none where the surface is singular.
-std::optional<gp_Dir> normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+/// Normal of a face, of any length. BRepGProp_Face would look at all edges of the face each time.
+gp_Vec normal_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
   gp_Pnt at;
   gp_Vec du, dv;
   BRepAdaptor_Surface(face, Standard_False).D1(uv.X(), uv.Y(), at, du, dv);
-  const gp_Vec normal = du.Crossed(dv);
+  return (face.Orientation() == TopAbs_REVERSED ? -1 : 1) * du.Crossed(dv);
+}
+
+/// Unit normal of a face; none where the surface is singular.
+std::optional<gp_Dir> direction_at(const TopoDS_Face& face, const gp_Pnt2d& uv) {
+  const gp_Vec normal = normal_at(face, uv);
   return normal.Magnitude() < gp::Resolution() ? std::nullopt : std::optional<gp_Dir>(normal);
 }
 
@@ -254,25 +242,19 @@ Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share) {
   Fan result;
   const BRepAdaptor_Curve curve(edge);
   curve.D1((1 - share) * curve.FirstParameter() + share * curve.LastParameter(), result.point, result.along);
-  const BRepAdaptor_Surface surface(face, Standard_False);
   const gp_Pnt2d uv =
-      ShapeAnalysis_Surface(surface.Surface().Surface())
-          .ValueOfUV(result.point.Transformed(surface.Trsf().Inverted()), Precision::Confusion());
-  gp_Pnt at;
-  gp_Vec du, dv;
-  surface.D1(uv.X(), uv.Y(), at, du, dv);
-  result.normal = du.Crossed(dv);
+      ShapeAnalysis_Surface(BRep_Tool::Surface(face)).ValueOfUV(result.point, Precision::Confusion());
+  result.normal = normal_at(face, uv);
   if (result.along.Magnitude() > Precision::Confusion()) result.along.Normalize();
   if (result.normal.Magnitude() > gp::Resolution()) result.normal.Normalize();
-  if (face.Orientation() == TopAbs_REVERSED) result.normal.Reverse();
   result.away = result.along.Crossed(result.normal);
   if (edge.Orientation() == TopAbs_REVERSED) result.away.Reverse();
   return result;
 }
 
-bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan) {
+bool leaves_through_side(const std::vector<Wall>& walls, int own, const Fan& fan) {
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall)
-    if (wall != own && leaves_through(walls[wall], skin, fan)) return true;
+    if (wall != own && leaves_through(walls[wall], fan)) return true;
   return false;
 }
 
@@ -291,12 +273,11 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
   for (const JoinedFace& face : faces) {
     accounted.insert(face.coverage.faces.begin(), face.coverage.faces.end());
   }
-  const EdgeUses uses(faces);
-  for (int i = 0; i < uses.count(); ++i) {
+  for (const auto& [first, around] : EdgeUses(faces)) {
     context.check();
-    if (uses.uses(i).size() > 1) continue;  // shared, or a seam
-    const EdgeUses::Use& use = uses.uses(i).front();
-    const TopoDS_Edge edge = TopoDS::Edge(uses.edge(i).Oriented(use.orientation));
+    if (around.size() > 1) continue;  // shared, or a seam
+    const EdgeUses::Use& use = around.front();
+    const TopoDS_Edge edge = TopoDS::Edge(first.Oriented(use.orientation));
     const TopoDS_Face& face = faces[use.face].face;
     const int own = faces[use.face].wall;
     ++result.free_edges;
@@ -313,10 +294,11 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
         astray += closes(skin, walls, fan, own) ? 0 : 1;
         continue;
       }
-      const InOthers others = in_others(skin, walls, own, fan.point);
-      stray = stray || !others.within;
-      astray += others.within && !runs_across(skin, walls, fan, own) ? 1 : 0;
-      for (const int wall : others.halfway) stray = ++halfway[wall] == 3 || stray;
+      const auto others = halfway_in_others(walls, own, fan.point);
+      stray = stray || !others;
+      if (!others) continue;
+      astray += runs_across(walls, fan, own) ? 0 : 1;
+      for (const int wall : *others) stray = ++halfway[wall] == 3 || stray;
     }
     // A twisted wall's rim and the fence that extends it straight may be apart by a small step.
     const bool long_enough = length_of(edge) > 0.1 * walls[own].thickness;
@@ -334,8 +316,7 @@ void check_rims(const Skin& skin, const std::vector<Wall>& walls, const std::vec
   list_unpaired(skin, walls, accounted, thinnest, result);
 }
 
-CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
-                           const std::vector<JoinedFace>& faces,
+CountedTwice counted_twice(const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
                            Fillets fillets) {  // NOLINT(performance-unnecessary-value-param): counted down
   CountedTwice result;
   for (std::size_t i = 0; i < faces.size(); ++i) {  // steps lie across walls that reach up to them
@@ -346,14 +327,13 @@ CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
     std::set<std::size_t> faces{};
   };
   std::map<std::set<int>, Place> places;  // by the walls that meet
-  const EdgeUses uses(faces);
-  for (int edge = 0; edge < uses.count(); ++edge) {
+  for (const EdgeUses::UsedEdge& edge : EdgeUses(faces)) {
     std::set<int> meeting;
-    const double section = section_counted_twice(skin, walls, faces, uses, edge, meeting);
+    const double section = section_counted_twice(walls, faces, edge, meeting);
     if (section == 0) continue;
     Place& place = places[meeting];
-    place.volume += section * length_of(TopoDS::Edge(uses.edge(edge)));
-    for (const EdgeUses::Use& use : uses.uses(edge)) {
+    place.volume += section * length_of(edge.edge);
+    for (const EdgeUses::Use& use : edge.uses) {
       if (!faces[use.face].step) place.faces.insert(static_cast<std::size_t>(use.face));
     }
   }
@@ -387,12 +367,12 @@ std::vector<std::size_t> faces_of_wrong_thickness(const Skin& skin, const std::v
     if (faces[i].step) continue;
     std::vector<double> told;  // over what the rays measure
     for (const FaceSample& sample : sample_face(faces[i].face, 16)) {
-      const auto normal = normal_at(faces[i].face, sample.uv);
+      const auto normal = direction_at(faces[i].face, sample.uv);
       if (!normal) continue;
       const auto up = skin.first_hit(sample.point, *normal);
       const auto down = skin.first_hit(sample.point, normal->Reversed());
       if (!up || !down) continue;
-      const double here = thickness_at(faces[i].coverage, walls[faces[i].wall], skin, sample.point);
+      const double here = thickness_at(faces[i].coverage, walls[faces[i].wall], sample.point);
       told.push_back(here / (up->distance + down->distance));
     }
     if (told.empty()) continue;
@@ -411,21 +391,20 @@ std::vector<std::size_t> hollow_joints(const Skin& skin, const std::vector<Joine
     std::set<std::size_t> standing;  // where the wall goes on beyond them
     bool enclosed = true;
     for (TopExp_Explorer it(own.face, TopAbs_EDGE); it.More(); it.Next()) {
-      const int edge = uses.find(it.Current());
-      if (edge < 0 || uses.uses(edge).size() != 3) {
+      const std::vector<EdgeUses::Use>* meeting = uses.find(it.Current());
+      if (meeting == nullptr || meeting->size() != 3) {
         enclosed = false;
         break;
       }
-      const auto& meeting = uses.uses(edge);
-      const bool goes_on = std::any_of(meeting.begin(), meeting.end(), [&](const EdgeUses::Use& use) {
+      const bool goes_on = std::any_of(meeting->begin(), meeting->end(), [&](const EdgeUses::Use& use) {
         return use.face != static_cast<int>(i) && faces[use.face].wall == own.wall;
       });
-      for (const EdgeUses::Use& use : meeting) {
+      for (const EdgeUses::Use& use : *meeting) {
         if (goes_on && faces[use.face].wall != own.wall) standing.insert(static_cast<std::size_t>(use.face));
       }
     }
     const auto sample = inner_sample(own.face);
-    const auto normal = sample ? normal_at(own.face, sample->uv) : std::nullopt;
+    const auto normal = sample ? direction_at(own.face, sample->uv) : std::nullopt;
     if (!enclosed || standing.empty() || !normal) continue;
     std::array<bool, 2> on_side{};  // behind, ahead
     for (const std::size_t other : standing) {

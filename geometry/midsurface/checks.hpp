@@ -26,7 +26,7 @@ struct Fan {
 Fan fan_at(const TopoDS_Edge& edge, const TopoDS_Face& face, double share);
 
 /// Whether the middle of the wall `own` leaves the material through a side of another wall.
-bool leaves_through_side(const Skin& skin, const std::vector<Wall>& walls, int own, const Fan& fan);
+bool leaves_through_side(const std::vector<Wall>& walls, int own, const Fan& fan);
 
 /// Sorts numbers and removes those that occur twice.
 void sort_unique(std::vector<int>& numbers);
@@ -50,8 +50,8 @@ struct CountedTwice {
 /// What area times thickness counts twice. Corners of two walls count once: what is counted twice on their
 /// inside is missing on their outside. What a junction counts twice compensates for fillets between the same
 /// walls, as far as no thickness contains these. Linear in the edges.
-CountedTwice counted_twice(const Skin& skin, const std::vector<Wall>& walls,
-                           const std::vector<JoinedFace>& faces, Fillets fillets);
+CountedTwice counted_twice(const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                           Fillets fillets);
 
 /// Indices of the faces whose thickness differs by more than a twentieth from what rays through the solid
 /// measure on most of the face.

@@ -1,6 +1,7 @@
 #pragma once
 /// Which faces of a middle surface meet at which edges. Internal.
 
+#include <iterator>
 #include <vector>
 
 #include "geometry/cad/shape_parts.hpp"
@@ -8,31 +9,39 @@
 
 namespace quadrille {
 
-/// The faces on each edge that is no point. Edges are counted from 0, in the order of the faces.
+/// The faces on each edge that is no point, in the order of the faces.
 class EdgeUses {
  public:
-  explicit EdgeUses(const std::vector<JoinedFace>& faces) {
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      for (const TopoDS_Edge& edge : edges_of(faces[i].face)) {
-        const int number = edges_.Add(edge);
-        uses_.resize(edges_.Extent());
-        uses_[number - 1].push_back({static_cast<int>(i), edge.Orientation()});
-      }
-    }
-  }
-
   struct Use {
     int face = 0;
     TopAbs_Orientation orientation = TopAbs_FORWARD;
   };
-  int count() const { return edges_.Extent(); }
-  const TopoDS_Shape& edge(int index) const { return edges_(index + 1); }
-  int find(const TopoDS_Shape& edge) const { return edges_.FindIndex(edge) - 1; }  ///< -1 = none
-  const std::vector<Use>& uses(int index) const { return uses_[index]; }
+  struct UsedEdge {
+    TopoDS_Edge edge;
+    std::vector<Use> uses;
+  };
+
+  explicit EdgeUses(const std::vector<JoinedFace>& faces) {
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      for (const TopoDS_Edge& edge : edges_of(faces[i].face)) {
+        const int number = numbers_.Add(edge);
+        if (number > std::ssize(edges_)) edges_.push_back({edge, {}});
+        edges_[number - 1].uses.push_back({static_cast<int>(i), edge.Orientation()});
+      }
+    }
+  }
+
+  auto begin() const { return edges_.begin(); }
+  auto end() const { return edges_.end(); }
+  /// Null if no face uses the edge.
+  const std::vector<Use>* find(const TopoDS_Shape& edge) const {
+    const int number = numbers_.FindIndex(edge);
+    return number > 0 ? &edges_[number - 1].uses : nullptr;
+  }
 
  private:
-  TopTools_IndexedMapOfShape edges_;
-  std::vector<std::vector<Use>> uses_;
+  TopTools_IndexedMapOfShape numbers_;
+  std::vector<UsedEdge> edges_;
 };
 
 }  // namespace quadrille

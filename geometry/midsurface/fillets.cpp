@@ -83,9 +83,8 @@ double shell_volume(const std::vector<JoinedFace>& faces) {
 
 /// The faces, cut where the fillets begin. \param strips set to 1 for each face of the result that lies along
 /// a corner, where its wall has no side; to 0 for others.
-std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
-                                  const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
-                                  std::vector<char>& strips) {
+std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls,
+                                  const std::vector<JoinedFace>& faces, std::vector<char>& strips) {
   constexpr double least_share = 0.25;
   std::vector<JoinedFace> result;
   for (const JoinedFace& whole : faces) {
@@ -95,13 +94,12 @@ std::vector<JoinedFace> cut_faces(const BOPAlgo_Builder& fuse, const Skin& skin,
       part.face = TopoDS::Face(piece);
       bool strip = false;
       if (pieces.Extent() > 1 && !whole.step) {
-        triangulate_middle(part.face, walls[whole.wall].thickness);
-        const Coverage coverage = coverage_of(part.face, walls[whole.wall], skin);
+        const Coverage coverage = coverage_of(part.face, walls[whole.wall]);
         strip = coverage.share < least_share;
         if (!strip) {
           part.coverage = coverage;
         } else if (!walls[whole.wall].fitted && whole.coverage.thickest > 1.001 * whole.coverage.thinnest) {
-          part.coverage = coverage_past_sides(part.face, walls[whole.wall], skin);
+          part.coverage = coverage_of(part.face, walls[whole.wall], true);
           part.coverage.faces = whole.coverage.faces;
         }
       }
@@ -130,11 +128,10 @@ std::vector<std::size_t> strips_at(const BOPAlgo_Builder& fuse, const FilletBord
 
 /// (pairs of walls) that share an edge.
 std::set<std::pair<int, int>> neighbors_of(const std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
   std::set<std::pair<int, int>> result;
-  for (int edge = 0; edge < uses.count(); ++edge) {
-    for (const EdgeUses::Use& from : uses.uses(edge)) {
-      for (const EdgeUses::Use& to : uses.uses(edge)) {
+  for (const auto& [edge, around] : EdgeUses(faces)) {
+    for (const EdgeUses::Use& from : around) {
+      for (const EdgeUses::Use& to : around) {
         const int wall = faces[from.face].wall, other = faces[to.face].wall;
         if (wall != other) result.emplace(wall, other);
       }
@@ -262,6 +259,7 @@ FilletsByFace find_fillets(const Skin& skin, const std::vector<Wall>& walls,
   FilletsByFace result;
   const std::set<std::pair<int, int>> neighbors = neighbors_of(faces);
   for (auto& [face, borders] : find_fillet_borders(skin, walls)) {
+    if (walls_of(borders).size() < 2) continue;
     Fillet fillet = fillet_of(skin.faces()[face], walls, std::move(borders));
     if (fillet.volume == 0) continue;
     fillet.closed = is_closed(walls_of(fillet.borders), neighbors);
@@ -285,7 +283,7 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   double held = 0, held_closed = 0;
   for (const auto& [face, fillet] : open) held += fillet.volume;
   const auto missing = [&](const std::vector<JoinedFace>& from) {
-    return volume - shell_volume(from) + counted_twice(skin, walls, from, result).sum();
+    return volume - shell_volume(from) + counted_twice(walls, from, result).sum();
   };
   // The rounding outside of a bend takes off what the one inside adds.
   const double left_over = std::clamp(missing(faces) / held, 0.0, 1.0);
@@ -313,8 +311,7 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   perform(fuse, context);
   std::vector<char> strips;
   std::vector<JoinedFace> cut;
-  if (!fuse.HasErrors())
-    cut = cut_faces(fuse, skin, walls, faces, strips);  // else the faces stay as they are
+  if (!fuse.HasErrors()) cut = cut_faces(fuse, walls, faces, strips);  // else the faces stay as they are
   /// Adds a share of the volume of each fillet to each of its walls. \return the borders that cut no strip
   /// off.
   const auto add = [&](const FilletsByFace& fillets, double share) {
@@ -340,7 +337,7 @@ Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double vol
   double open_held = 0;
   for (const auto& [face, fillet] : open) open_held += fillet.volume;
   const double share =
-      share_for(skin.solid(), thin, body_of(cut), open_held, counted_twice(skin, walls, cut, {}).junctions);
+      share_for(skin.solid(), thin, body_of(cut), open_held, counted_twice(walls, cut, {}).junctions);
   if (share < 1) add(open, share - 1);
   result.softer = stiffening(left, walls, faces) + (1 - share) * stiffening(open, walls, faces);
   if (result.softer < worth_stiffness) result.softer = 0;

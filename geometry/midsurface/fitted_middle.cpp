@@ -7,6 +7,7 @@
 #include <BRep_Tool.hxx>
 #include <BSplCLib.hxx>
 #include <BSplSLib.hxx>
+#include <ElCLib.hxx>
 #include <GeomLib.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
@@ -183,8 +184,7 @@ class Tilt {
     const ParameterRange& range = ranges_[end / 2];
     const double bound = end % 2 == 0 ? range.low : range.high;
     const gp_Pnt2d uv = end < 2 ? gp_Pnt2d(bound, along) : gp_Pnt2d(along, bound);
-    const SkinFace& other = skin_.faces()[beside_[end]];
-    const auto own = base_.outward(uv), next = other.outward(other.closest(base_.point(uv)));
+    const auto own = base_.outward(uv), next = skin_.faces()[beside_[end]].outward_at(base_.point(uv));
     if (own && next) entry->second = 0.5 * (gp_Vec(*next) - gp_Vec(*own));
     return entry->second;
   }
@@ -333,10 +333,8 @@ std::optional<FittedProfile> fit_profile(MiddlePoints& points, double u, const P
     for (int i = 0; i < grid.count(); ++i) {
       const auto point = points.at(u, grid.value(i));
       if (!point) return std::nullopt;
-      const gp_Vec along(axis.Direction());
       const bool is_pole = axis.Distance(*point) < at_pole;
-      poles(i + 1) =
-          is_pole ? axis.Location().Translated(gp_Vec(axis.Location(), *point).Dot(along) * along) : *point;
+      poles(i + 1) = is_pole ? ElCLib::Value(ElCLib::Parameter(axis, *point), axis) : *point;
     }
     TColStd_Array1OfInteger orders(1, grid.count());
     orders.Init(0);

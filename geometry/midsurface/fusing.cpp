@@ -58,4 +58,10 @@ TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& fac
   return itself;
 }
 
+TopTools_ListOfShape images(BRepBuilderAPI_MakeShape& made, const TopoDS_Shape& part) {
+  TopTools_ListOfShape result = made.Modified(part);
+  if (result.IsEmpty()) result.Append(part);
+  return result;
+}
+
 }  // namespace quadrille

@@ -2,6 +2,7 @@
 /// OpenCASCADE's long work under a time limit, and its fuses. Internal.
 
 #include <BOPAlgo_Builder.hxx>
+#include <BRepBuilderAPI_MakeShape.hxx>
 #include <Message_ProgressRange.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <functional>
@@ -20,5 +21,6 @@ void perform(BOPAlgo_Builder& fuse, const ExecutionContext& context);
 
 /// The parts into which a fuse has cut one of its arguments; the argument itself if it was not cut.
 TopTools_ListOfShape images(const BOPAlgo_Builder& fuse, const TopoDS_Shape& face);
+TopTools_ListOfShape images(BRepBuilderAPI_MakeShape& made, const TopoDS_Shape& part);
 
 }  // namespace quadrille

@@ -2,7 +2,6 @@
 
 #include "geometry/midsurface/gaps.hpp"
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -80,18 +79,12 @@ struct Beside {
 std::vector<Beside> beside(const Skin& skin, const SkinFace& face) {
   std::vector<Beside> result;
   const auto places = is_flat(face) ? std::vector<double>{0.5} : std::vector<double>{0.2, 0.5, 0.9};
-  for (const TopoDS_Edge& edge : edges_of(face.face())) {
-    const BRepAdaptor_Curve curve(edge);
-    for (const TopoDS_Shape& next : skin.faces_of(edge)) {
-      if (next.IsSame(face.face())) continue;
-      const SkinFace& other = skin.faces()[skin.index_of(next)];
-      for (const double place : places) {
-        const gp_Pnt at = curve.Value((1 - place) * curve.FirstParameter() + place * curve.LastParameter());
-        const auto own = face.outward(face.closest(at)), outward = other.outward(other.closest(at));
-        if (own && outward)
-          result.push_back(
-              {length_of(edge) / static_cast<double>(places.size()), gp_Vec(*own), gp_Vec(*outward)});
-      }
+  for (const auto& [edge, other] : skin.neighbors(face)) {
+    for (const double place : places) {
+      const gp_Pnt at = point_at(edge, place);
+      const auto own = face.outward_at(at), outward = skin.faces()[other].outward_at(at);
+      if (own && outward)
+        result.push_back({length_of(edge) / static_cast<double>(places.size()), *own, *outward});
     }
   }
   std::stable_sort(result.begin(), result.end(),
@@ -140,17 +133,6 @@ bool runs_on_along_normals(const std::vector<Beside>& around) {
   return runs >= 0.9 * all;
 }
 
-/// Makes the common part of two shapes.
-void intersect(const TopoDS_Shape& a, const TopoDS_Shape& b, const ExecutionContext& context,
-               BRepAlgoAPI_Common& common) {
-  TopTools_ListOfShape first, second;
-  first.Append(a);
-  second.Append(b);
-  common.SetArguments(first);
-  common.SetTools(second);
-  under_limit(context, [&](const Message_ProgressRange& range) { common.Build(range); });
-}
-
 /// Cuts a face in two, so that no edge of the halves is closed. Empty if its surface has no local axes.
 std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContext& context) {
   std::list<BRepAlgoAPI_Common> result;  // a list, since its elements must not be copied
@@ -164,7 +146,8 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContex
     const gp_Pnt corner = frame->Location().Translated(-reach * (axis + axis.Crossed(away)));
     const gp_Ax2 place(corner, frame->Direction(), away);
     const TopoDS_Shape box = BRepPrimAPI_MakeBox(place, reach, 2 * reach, 2 * reach).Solid();
-    intersect(face.face(), box, context, result.emplace_back());
+    under_limit(context,
+                [&](const Message_ProgressRange& range) { result.emplace_back(face.face(), box, range); });
     if (result.back().HasErrors()) return {};
   }
   return result;
@@ -190,20 +173,16 @@ class OffsetFace {
   }
 
   TopoDS_Face face() const {
-    std::optional<BRepBuilderAPI_MakeFace> result;
     const TopoDS_Wire outer = BRepTools::OuterWire(face_);
-    const auto add = [&](const TopoDS_Wire& old) {
+    const auto moved = [&](const TopoDS_Wire& old) {
       BRepBuilderAPI_MakeWire wire;
       for (BRepTools_WireExplorer it(old, face_); it.More(); it.Next()) wire.Add(edge(it.Current()));
-      if (result)
-        result->Add(wire.Wire());
-      else
-        result.emplace(surface_, wire.Wire());
+      return wire.Wire();
     };
-    add(outer);
+    BRepBuilderAPI_MakeFace result(surface_, moved(outer));
     for (TopExp_Explorer it(face_, TopAbs_WIRE); it.More(); it.Next())
-      if (!it.Current().IsSame(outer)) add(TopoDS::Wire(it.Current()));
-    return result->Face();
+      if (!it.Current().IsSame(outer)) result.Add(moved(TopoDS::Wire(it.Current())));
+    return result.Face();
   }
 
  private:
@@ -340,10 +319,10 @@ class GapFinder {
     BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
     BRepPrimAPI_MakePrism prism(moved.Shape(), length * gp_Vec(*along));
     DrawnFace result{prism.Shape(), {}};
-    for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
+    for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
       for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
-        result.numbers.emplace_back(side, number);
-    });
+        result.numbers.emplace_back(side, face({of.solid, beside}).number());
+    }
     result.numbers.emplace_back(prism.FirstShape(), face(of).number());
     result.numbers.emplace_back(prism.LastShape(), face(of).number());
     return {result};
@@ -364,11 +343,10 @@ class GapFinder {
     std::vector<DrawnFace> result;
     for (BRepAlgoAPI_Common& half : halves(face(of), context_)) {
       TopTools_DataMapOfShapeInteger numbers;
-      for_each_neighbor(of, [&](const TopoDS_Edge& edge, int number) {
-        TopTools_ListOfShape parts = half.Modified(edge);
-        if (parts.IsEmpty()) parts.Append(edge);
-        for (const TopoDS_Shape& part : parts) numbers.Bind(part, number);
-      });
+      for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
+        for (const TopoDS_Shape& part : images(half, edge))
+          numbers.Bind(part, face({of.solid, beside}).number());
+      }
       for (TopExp_Explorer it(half.Shape(), TopAbs_FACE); it.More(); it.Next()) {
         result.push_back(thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers,
                                     face(of).number(), context_));
@@ -383,26 +361,12 @@ class GapFinder {
     if (is_flat(face(rounded))) return false;
     const double near = 1e-6 * solids_[rounded.solid].size();
     for (const TopoDS_Edge& edge : edges_of(face(rounded).face())) {
-      const BRepAdaptor_Curve curve(edge);
-      const gp_Pnt at = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-      const gp_Pnt2d uv = face(other).closest(at);
-      if (face(other).point(uv).Distance(at) > near) continue;
-      const auto own = face(rounded).outward(face(rounded).closest(at)), opposite = face(other).outward(uv);
+      const gp_Pnt at = point_at(edge, 0.5);
+      if (face(other).distance(at) > near) continue;
+      const auto own = face(rounded).outward_at(at), opposite = face(other).outward_at(at);
       if (own && opposite && own->Dot(*opposite) < -0.9999) return true;
     }
     return false;
-  }
-
-  /// Calls `tell` with each edge of a face and the number of the neighbor there.
-  template <class Tell>
-  void for_each_neighbor(const FaceOf& of, const Tell& tell) const {
-    const Skin& skin = solids_[of.solid];
-    for (TopExp_Explorer it(face(of).face(), TopAbs_EDGE); it.More(); it.Next()) {
-      for (const TopoDS_Shape& beside : solids_[of.solid].faces_of(it.Current())) {
-        if (!beside.IsSame(face(of).face()))
-          tell(TopoDS::Edge(it.Current()), skin.faces()[skin.index_of(beside)].number());
-      }
-    }
   }
 
   /// The other solids near a face.
@@ -463,30 +427,27 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& find
 
 /// Adds the common part of two solids.
 void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& context,
-                GapFillers& fillers) {
-  BRepAlgoAPI_Common common;
-  intersect(a.solid, b.solid, context, common);
-  if (common.HasErrors()) return;  // reported later as parts that are not connected
-  for (TopExp_Explorer it(common.Shape(), TopAbs_SOLID); it.More(); it.Next())
+                NumberedSolids& fillers) {
+  std::optional<BRepAlgoAPI_Common> common;
+  under_limit(context, [&](const Message_ProgressRange& range) { common.emplace(a.solid, b.solid, range); });
+  if (common->HasErrors()) return;  // reported later as parts that are not connected
+  for (TopExp_Explorer it(common->Shape(), TopAbs_SOLID); it.More(); it.Next())
     fillers.solids.push_back(it.Current());
   for (const DrawnFace& prism : {a, b}) {
     for (const auto& [face, number] : prism.numbers) {
-      TopTools_ListOfShape parts = common.Modified(face);
-      if (parts.IsEmpty()) parts.Append(face);
-      for (const TopoDS_Shape& part : parts) {
+      for (const TopoDS_Shape& part : images(*common, face))
         if (!fillers.numbers.IsBound(part)) fillers.numbers.Bind(part, number);
-      }
     }
   }
 }
 
 }  // namespace
 
-GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
+NumberedSolids fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context) {
   constexpr double into = 0.25;  // over the thickness; surfaces that only touch are harder to fuse
   constexpr double all = 0.999;
   const GapFinder finder(solids, context);
-  GapFillers result;
+  NumberedSolids result;
   std::set<std::pair<int, FaceOf>> moved;
   for (const Gap& gap : find_gaps(solids, finder)) {
     context.check();

@@ -11,10 +11,10 @@
 
 namespace quadrille {
 
-/// Solids that fill gaps.
-struct GapFillers {
+/// Solids, and by face of them the number of the model's face that it is or extends.
+struct NumberedSolids {  // NOLINT(bugprone-exception-escape): OpenCASCADE's maps do not say noexcept
   std::vector<TopoDS_Shape> solids;
-  TopTools_DataMapOfShapeInteger numbers;  ///< by face of a filler: the model's face that it extends
+  TopTools_DataMapOfShapeInteger numbers;
 };
 
 /// Makes solids that close the narrow gaps between other solids, so that a fuse makes one solid of all. A
@@ -24,6 +24,6 @@ struct GapFillers {
 /// along their normals, except spheres around a pole and free-form faces. A gap is closed if it is not wider
 /// than the thinner wall. Solids that touch need no filler. Time: a ray for each of about 24 points of every
 /// face near another solid. Looks at the context's time limit.
-GapFillers fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context);
+NumberedSolids fill_gaps(const std::deque<Skin>& solids, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -2,9 +2,9 @@
 /// Whether parameters lie in a face, fast also where it has many holes. Internal.
 
 #include <BRepTopAdaptor_FClass2d.hxx>
+#include <Bnd_Box2d.hxx>
 #include <TopAbs_State.hxx>
 #include <TopoDS_Face.hxx>
-#include <array>
 #include <gp_Pnt2d.hxx>
 #include <memory>
 #include <vector>
@@ -21,8 +21,8 @@ class InsideTest {
   explicit InsideTest(const TopoDS_Face& face);
 
   /// Whether the parameters are in the face, on its border or out of it. \param near distance in parameters
-  /// up to which they are on the border. Of a face with many holes only those are looked at that share a cell
-  /// of a grid with the parameters.
+  /// up to which they are on the border. Of a face with many holes only those are looked at in whose box the
+  /// parameters lie.
   TopAbs_State at(const gp_Pnt2d& uv, double near) const;
 
  private:
@@ -30,16 +30,13 @@ class InsideTest {
   struct Part {
     TopoDS_Face face;
     std::unique_ptr<BRepTopAdaptor_FClass2d> inside;
+    Bnd_Box2d box;  ///< of a hole's parameters, a little larger
     TopAbs_State at(const gp_Pnt2d& uv, double near) const;
   };
   static Part part_of(const TopoDS_Face& face);
-  std::size_t cell_of(double value, int axis) const;
 
-  Part outside_;                                 ///< without the holes if they are in the grid
-  std::vector<Part> holes_;                      ///< empty if the face has few holes
-  std::vector<std::vector<std::size_t>> cells_;  ///< indices of the holes in each cell
-  std::size_t count_ = 0;                        ///< cells along each axis
-  std::array<double, 2> low_{0, 0}, step_{1, 1};
+  Part outside_;             ///< without the holes if these are tested one by one
+  std::vector<Part> holes_;  ///< empty if the face has few holes
 };
 
 }  // namespace quadrille

@@ -3,7 +3,7 @@
 #include "geometry/midsurface/joining.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <BRepAdaptor_Curve.hxx>
+#include <BRepTools_ReShape.hxx>
 #include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <Standard_Failure.hxx>
@@ -34,7 +34,7 @@ struct Images {
   std::vector<JoinedFace> hung_over;  ///< faces past the sides of their wall, inside other walls
 };
 
-Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vector<Wall>& walls,
+Images cut_pieces(const BOPAlgo_Builder& fuse, const std::vector<Wall>& walls,
                   const std::vector<std::vector<TopoDS_Face>>& pieces, const ExecutionContext& context) {
   constexpr double least_share = 0.25;
   Images result;
@@ -43,8 +43,7 @@ Images cut_pieces(const BOPAlgo_Builder& fuse, const Skin& skin, const std::vect
       for (const TopoDS_Shape& image : images(fuse, piece)) {
         context.check();
         const TopoDS_Face& face = TopoDS::Face(image);
-        triangulate_middle(face, walls[wall].thickness);
-        const Coverage coverage = coverage_of(face, walls[wall], skin);
+        const Coverage coverage = coverage_of(face, walls[wall]);
         (coverage.share < least_share ? result.hung_over : result.between)
             .push_back({face, static_cast<int>(wall), false, coverage});
       }
@@ -75,10 +74,8 @@ std::vector<Strip> fences_at_steps(const BOPAlgo_Builder& fuse, const std::vecto
   }
   const EdgeUses uses(pieces), between(cut.between), hung_over(cut.hung_over);
   boost::disjoint_sets_with_storage<> together(pieces.size());
-  for (int i = 0; i < uses.count(); ++i) {
-    const TopoDS_Edge& edge = TopoDS::Edge(uses.edge(i));
-    const std::vector<EdgeUses::Use>& around = uses.uses(i);
-    if (around.size() != 2 || between.find(edge) >= 0 || hung_over.find(edge) >= 0) continue;
+  for (const auto& [edge, around] : uses) {
+    if (around.size() != 2 || between.find(edge) != nullptr || hung_over.find(edge) != nullptr) continue;
     const gp_Vec first = fan_at(edge, pieces[around[0].face].face, 0.5).normal;
     if (std::abs(first.Dot(fan_at(edge, pieces[around[1].face].face, 0.5).normal)) > 0.999)
       together.union_set(around[0].face, around[1].face);
@@ -100,11 +97,6 @@ struct Contact {
   double loose = 0;          ///< length of the longest edge that it would leave open
 };
 
-gp_Pnt middle_of(const TopoDS_Shape& edge) {
-  const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
-  return curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-}
-
 /// Lets walls that end inside the material grow up to the next one, along narrow strips: the part of a fence
 /// between the two middles of a step, or what hangs over. Where a beam is flush with a thicker column, a
 /// strip of the column's wall joins the beam's side; that side itself grows past where only a wall that hangs
@@ -119,9 +111,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
   for (const Strip& strip : strips) pieces.insert(pieces.end(), strip.begin(), strip.end());
   const EdgeUses among(pieces);
   TopTools_DataMapOfShapeInteger off_skin;  // by edge
-  const auto is_off_skin = [&](const TopoDS_Shape& edge, double thickness) {
+  const auto is_off_skin = [&](const TopoDS_Edge& edge, double thickness) {
     if (const int* known = off_skin.Seek(edge)) return *known != 0;
-    const bool off = skin.faces_at(middle_of(edge), 1e-3 * thickness).empty();
+    const bool off = skin.faces_at(point_at(edge, 0.5), 1e-3 * thickness).empty();
     off_skin.Bind(edge, off ? 1 : 0);
     return off;
   };
@@ -131,41 +123,36 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
     changed = false;
     const EdgeUses uses(faces);
     TopTools_MapOfShape closed;  // edges at which a strip has just been added
-    const auto ends_inside = [&](int edge) {
-      const EdgeUses::Use& use = uses.uses(edge).front();
-      if (uses.uses(edge).size() > 1 || use.orientation == TopAbs_INTERNAL) return false;
-      return is_off_skin(uses.edge(edge), walls[faces[use.face].wall].thickness);
+    const auto ends_inside = [&](const TopoDS_Edge& edge, const std::vector<EdgeUses::Use>& around) {
+      const EdgeUses::Use& use = around.front();
+      return around.size() == 1 && use.orientation != TopAbs_INTERNAL &&
+             is_off_skin(edge, walls[faces[use.face].wall].thickness);
     };
     const auto contact_of = [&](const Strip& strip) {
       Contact result;
       // A strip has the thickness of a wall of its step, not of a rib that crosses it; of a strip only if
       // need be.
       std::tuple<bool, bool, double> best;
-      const EdgeUses own_edges(strip);
       std::vector<TopoDS_Edge> loose;
       TopTools_MapOfShape met_vertices;
-      for (int i = 0; i < own_edges.count(); ++i) {
-        const TopoDS_Edge edge = TopoDS::Edge(own_edges.edge(i));
-        const std::vector<EdgeUses::Use>& own_uses = own_edges.uses(i);
+      for (const auto& [edge, own_uses] : EdgeUses(strip)) {
         const JoinedFace& piece = strip[own_uses.front().face];
         if (closed.Contains(edge)) return Contact();
-        const std::size_t strips_there = among.uses(among.find(edge)).size();
-        const int found = uses.find(edge);
-        if (found < 0) {
+        const std::vector<EdgeUses::Use>* around = uses.find(edge);
+        if (around == nullptr) {
           const TopAbs_Orientation orientation = own_uses.front().orientation;
-          if (strips_there > 1 || orientation == TopAbs_INTERNAL) continue;
+          if (among.find(edge)->size() > 1 || orientation == TopAbs_INTERNAL) continue;
           const bool off = is_off_skin(edge, walls[piece.wall].thickness);
-          if (off && piece.step && !skin.in_material(middle_of(edge))) return Contact();
+          if (off && piece.step && !skin.in_material(point_at(edge, 0.5))) return Contact();
           if (off || piece.step) loose.push_back(edge);
           if (!off)
             result.on_skin.push_back(fan_at(TopoDS::Edge(edge.Oriented(orientation)), piece.face, 0.5));
           continue;
         }
         for (TopoDS_Iterator it(edge); it.More(); it.Next()) met_vertices.Add(it.Value());
-        const std::vector<EdgeUses::Use>& around = uses.uses(found);
-        const bool ended = ends_inside(found);
+        const bool ended = ends_inside(edge, *around);
         if (ended) result.length += length_of(edge);
-        for (const EdgeUses::Use& use : around) {
+        for (const EdgeUses::Use& use : *around) {
           const JoinedFace& face = faces[use.face];
           if (piece.step && use.orientation == TopAbs_INTERNAL) continue;  // only the fence has cut it
           result.met.insert(face.wall);
@@ -200,7 +187,7 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
       if (!bridges && !own && !step) continue;
       const int joins = own ? wall : contact.thinnest;
       if (std::any_of(contact.on_skin.begin(), contact.on_skin.end(),
-                      [&](const Fan& fan) { return leaves_through_side(skin, walls, joins, fan); }))
+                      [&](const Fan& fan) { return leaves_through_side(walls, joins, fan); }))
         continue;
       for (const JoinedFace& piece : strip) {
         faces.push_back(own ? piece : JoinedFace{piece.face, joins, true, whole_coverage(joins, walls)});
@@ -211,30 +198,9 @@ void grow_to_others(const Skin& skin, const std::vector<Wall>& walls, const std:
   }
 }
 
-/// The face without those of its edges that are in `edges`. \return null if there are none.
-TopoDS_Face without_edges(const TopoDS_Face& face, const TopTools_MapOfShape& edges) {
-  const BRep_Builder builder;
-  TopoDS_Shape result = face.EmptyCopied();
-  bool changed = false;
-  for (TopoDS_Iterator wires(face); wires.More(); wires.Next()) {
-    TopoDS_Shape wire = wires.Value().EmptyCopied();
-    bool cut = false, empty = true;
-    for (TopoDS_Iterator it(wires.Value()); it.More(); it.Next()) {
-      const bool left_out = edges.Contains(it.Value());
-      cut = cut || left_out;
-      empty = empty && left_out;
-      if (!left_out) builder.Add(wire, it.Value());
-    }
-    changed = changed || cut;
-    if (!empty) builder.Add(result, cut ? wire : wires.Value());
-  }
-  return changed ? TopoDS::Face(result) : TopoDS_Face();
-}
-
 /// Merges the faces of one wall, or those with its thickness at its steps, across edges that no other uses.
-void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>& walls,
-                const std::vector<JoinedFace>& all, const TopTools_MapOfShape& kept_edges,
-                std::vector<JoinedFace>& merged) {
+void merge_wall(int wall, bool steps, const std::vector<Wall>& walls, const std::vector<JoinedFace>& all,
+                const TopTools_MapOfShape& kept_edges, std::vector<JoinedFace>& merged) {
   TopoDS_Shell shell;
   const BRep_Builder builder;
   builder.MakeShell(shell);
@@ -258,28 +224,24 @@ void merge_wall(int wall, bool steps, const Skin& skin, const std::vector<Wall>&
   }
   for (const TopoDS_Shape& unified : list_of(unify.Shape(), TopAbs_FACE)) {  // the shell has some twice
     const TopoDS_Face& face = TopoDS::Face(unified);
-    triangulate_middle(face, walls[wall].thickness);
-    merged.push_back({face, wall, steps, coverage_of(face, walls[wall], skin)});
+    merged.push_back({face, wall, steps, coverage_of(face, walls[wall])});
     if (steps || merged.back().coverage.share == 0) merged.back().coverage = whole_coverage(wall, walls);
   }
 }
 
-std::vector<JoinedFace> merged_faces(const Skin& skin, const std::vector<Wall>& walls,
-                                     const std::vector<JoinedFace>& faces, const ExecutionContext& context) {
-  const EdgeUses uses(faces);
+std::vector<JoinedFace> merged_faces(const std::vector<Wall>& walls, const std::vector<JoinedFace>& faces,
+                                     const ExecutionContext& context) {
   TopTools_MapOfShape kept_edges;
-  for (int i = 0; i < uses.count(); ++i) {
-    const JoinedFace& first = faces[uses.uses(i).front().face];
-    const bool shared = std::any_of(uses.uses(i).begin(), uses.uses(i).end(), [&](const EdgeUses::Use& use) {
-      return faces[use.face].wall != first.wall || faces[use.face].step != first.step;
-    });
-    if (shared) kept_edges.Add(uses.edge(i));
+  for (const auto& [edge, around] : EdgeUses(faces)) {
+    const JoinedFace& first = faces[around.front().face];
+    for (const EdgeUses::Use& use : around)
+      if (faces[use.face].wall != first.wall || faces[use.face].step != first.step) kept_edges.Add(edge);
   }
   std::vector<JoinedFace> result;
   for (const bool steps : {false, true}) {
     for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
       context.check();
-      merge_wall(wall, steps, skin, walls, faces, kept_edges, result);
+      merge_wall(wall, steps, walls, faces, kept_edges, result);
     }
   }
   return result;
@@ -305,57 +267,47 @@ bool fuse_pieces(const std::vector<WallEnd>& ends, const std::vector<std::vector
 
 // Such edges remain where pieces that hung over were dropped.
 void drop_traces(std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
-  TopTools_MapOfShape traces;
-  for (int i = 0; i < uses.count(); ++i) {
-    const auto& around = uses.uses(i);
-    const bool inside = std::all_of(around.begin(), around.end(), [&](const EdgeUses::Use& use) {
-      return use.face == around.front().face && use.orientation == TopAbs_INTERNAL;
-    });
-    if (inside) traces.Add(uses.edge(i));
+  BRepTools_ReShape traces;
+  for (const auto& [edge, around] : EdgeUses(faces)) {
+    const bool inside =
+        std::all_of(around.begin(), around.end(), [face = around.front().face](const EdgeUses::Use& use) {
+          return use.face == face && use.orientation == TopAbs_INTERNAL;
+        });
+    if (inside) traces.Remove(edge);
   }
-  if (traces.IsEmpty()) return;
-  for (JoinedFace& face : faces) {
-    const TopoDS_Face clean = without_edges(face.face, traces);
-    if (!clean.IsNull()) face.face = clean;
-  }
+  for (JoinedFace& face : faces) face.face = TopoDS::Face(traces.Apply(face.face));
 }
 
 void orient_alike(std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
   std::vector<std::vector<std::pair<int, bool>>> neighbors(faces.size());  // and whether one must be reversed
-  for (int i = 0; i < uses.count(); ++i) {
-    const auto& around = uses.uses(i);
+  for (const auto& [edge, around] : EdgeUses(faces)) {
     if (around.size() != 2 || around[0].face == around[1].face) continue;
     const bool differ = around[0].orientation == around[1].orientation;
     neighbors[around[0].face].emplace_back(around[1].face, differ);
     neighbors[around[1].face].emplace_back(around[0].face, differ);
   }
-  std::vector<int> turned(faces.size(), -1);
+  std::map<int, bool> turned;
   for (std::size_t start = 0; start < faces.size(); ++start) {
-    if (turned[start] >= 0) continue;
-    turned[start] = 0;
     std::vector<int> open{static_cast<int>(start)};
+    turned.try_emplace(open.front(), false);
     while (!open.empty()) {
       const int face = open.back();
       open.pop_back();
-      for (const auto& [next, differ] : neighbors[face]) {
-        if (turned[next] >= 0) continue;
-        turned[next] = differ ? 1 - turned[face] : turned[face];
-        open.push_back(next);
-      }
+      for (const auto& [next, differ] : neighbors[face])
+        if (turned.try_emplace(next, differ != turned[face]).second) open.push_back(next);
     }
-  }
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (turned[i] == 1) faces[i].face.Reverse();
+    if (turned[static_cast<int>(start)]) faces[start].face.Reverse();
   }
 }
 
-std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces) {
-  const EdgeUses uses(faces);
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces,
+                                                      const std::vector<int>& group) {
   boost::disjoint_sets_with_storage<> together(faces.size());
-  for (int i = 0; i < uses.count(); ++i)
-    for (const EdgeUses::Use& use : uses.uses(i)) together.union_set(uses.uses(i).front().face, use.face);
+  for (const auto& [edge, around] : EdgeUses(faces))
+    for (const EdgeUses::Use& from : around)
+      for (const EdgeUses::Use& to : around)
+        if (group.empty() || group[faces[from.face].wall] == group[faces[to.face].wall])
+          together.union_set(from.face, to.face);
   std::map<std::size_t, std::size_t> index;  // of the part, by the face that stands for it
   std::vector<std::vector<std::size_t>> result;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -381,13 +333,13 @@ std::vector<JoinedFace> join_walls(const Skin& skin, const std::vector<Wall>& wa
   for (int attempt = 0; attempt < 3 && !fused; ++attempt, fuzzy *= 2)
     fused = fuse_pieces(ends, pieces, fuzzy, context, fuse);
   if (!fused) throw failure("", "the middle surfaces could not be joined where they meet");
-  Images cut = cut_pieces(fuse, skin, walls, pieces, context);
+  Images cut = cut_pieces(fuse, walls, pieces, context);
   std::vector<Strip> strips = fences_at_steps(fuse, ends, cut);
   for (const JoinedFace& piece : cut.hung_over) strips.push_back({piece});
   std::vector<JoinedFace> faces = std::move(cut.between);
   grow_to_others(skin, walls, ends, strips, faces);
   drop_traces(faces);
-  faces = merged_faces(skin, walls, faces, context);
+  faces = merged_faces(walls, faces, context);
   orient_alike(faces);
   return faces;
 }

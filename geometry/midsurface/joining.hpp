@@ -53,7 +53,9 @@ struct Fillets {
 Fillets add_fillets(const Skin& skin, const std::vector<Wall>& walls, double volume,
                     const ExecutionContext& context, std::vector<JoinedFace>& faces);
 
-/// The indices of the faces in each connected part.
-std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces);
+/// The indices of the faces in each connected part. \param group number of each wall; only faces in walls
+/// with one number count as connected. Empty = all.
+std::vector<std::vector<std::size_t>> connected_parts(const std::vector<JoinedFace>& faces,
+                                                      const std::vector<int>& group = {});
 
 }  // namespace quadrille

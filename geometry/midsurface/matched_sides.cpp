@@ -2,7 +2,6 @@
 
 #include "geometry/midsurface/matched_sides.hpp"
 
-#include <BRepAdaptor_Curve.hxx>
 #include <BRepTools.hxx>
 #include <Geom2d_Curve.hxx>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "geometry/cad/shape_parts.hpp"
+#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -18,10 +18,9 @@ namespace {
 /// Whether two faces continue into each other at an edge: their normals differ little all along it.
 bool is_smooth(const SkinFace& a, const SkinFace& b, const TopoDS_Edge& edge) {
   const double most_turn = std::cos(20 * M_PI / 180);
-  const BRepAdaptor_Curve curve(edge);
   const auto turns = [&](double share) {
-    const gp_Pnt at = curve.Value((1 - share) * curve.FirstParameter() + share * curve.LastParameter());
-    const auto first = a.outward(a.closest(at)), second = b.outward(b.closest(at));
+    const gp_Pnt at = point_at(edge, share);
+    const auto first = a.outward_at(at), second = b.outward_at(at);
     return !first || !second || first->Dot(*second) < most_turn;
   };
   return !turns(0.1) && !turns(0.5) && !turns(0.9);

@@ -4,6 +4,7 @@
 
 #include <Adaptor3d_Curve.hxx>
 #include <BRep_Tool.hxx>
+#include <ElCLib.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
@@ -84,7 +85,7 @@ bool same_outside(const SkinFace& a, const SkinFace& b) {
   const auto samples = a.samples(1);
   if (samples.empty()) return false;
   const auto here = a.outward(samples.front().uv);
-  const auto there = b.outward(b.closest(samples.front().point));
+  const auto there = b.outward_at(samples.front().point);
   return here && there && here->Dot(*there) > 0;
 }
 
@@ -118,8 +119,7 @@ std::optional<gp_Torus> torus_of(const BRepAdaptor_Surface& surface, double size
   if (curve->GetType() != GeomAbs_Circle) return std::nullopt;
   const gp_Circ circle = curve->Circle();
   const gp_Lin axis(surface.AxeOfRevolution());
-  const double height = gp_Vec(axis.Location(), circle.Location()).Dot(gp_Vec(axis.Direction()));
-  const gp_Pnt center = axis.Location().Translated(height * gp_Vec(axis.Direction()));
+  const gp_Pnt center = ElCLib::Value(ElCLib::Parameter(axis, circle.Location()), axis);
   const double major = center.Distance(circle.Location());
   const bool in_plane =
       std::abs(circle.Axis().Direction().Dot(axis.Direction())) < same_direction &&
@@ -206,12 +206,9 @@ double distance_from_carrier(const SkinFace& face, const gp_Pnt& point) {
       return gp_Lin(surface.Cylinder().Axis()).Distance(point);
     case GeomAbs_Cone:
       return surface.Cone().Apex().Distance(point);
-    case GeomAbs_Sphere:
-      return surface.Sphere().Location().Distance(point);
-    case GeomAbs_Torus:
-      return surface.Torus().Location().Distance(point);
     default:
-      return 0;
+      const auto frame = frame_of(surface);
+      return frame ? frame->Location().Distance(point) : 0;
   }
 }
 
@@ -242,25 +239,22 @@ Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double
 
 NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
-  if (s.GetType() != t.GetType()) return {};
-  NearMiddle result;
-  if (s.GetType() == GeomAbs_Cylinder) {
-    const gp_Cylinder first = s.Cylinder(), second = t.Cylinder();
+  const bool cylinders = s.GetType() == GeomAbs_Cylinder;
+  if (s.GetType() != t.GetType() || (!cylinders && s.GetType() != GeomAbs_Sphere)) return {};
+  const gp_Ax3 first = *frame_of(s), second = *frame_of(t);
+  const double radius = cylinders ? s.Cylinder().Radius() : s.Sphere().Radius(),
+               other = cylinders ? t.Cylinder().Radius() : t.Sphere().Radius();
+  gp_Vec apart(first.Location(), second.Location());
+  if (cylinders) {
     if (!first.Axis().IsParallel(second.Axis(), same_direction)) return {};
-    const gp_Vec along(first.Axis().Direction());
-    gp_Vec apart(first.Location(), second.Location());
+    const gp_Vec along(first.Direction());
     apart -= apart.Dot(along) * along;
-    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
-    result.surface = new Geom_CylindricalSurface(first.Position().Translated(0.5 * apart),
-                                                 0.5 * (first.Radius() + second.Radius()));
-  } else if (s.GetType() == GeomAbs_Sphere) {
-    const gp_Sphere first = s.Sphere(), second = t.Sphere();
-    const gp_Vec apart(first.Location(), second.Location());
-    result.off = off_between_rounds(apart.Magnitude(), first.Radius(), second.Radius());
-    result.surface = new Geom_SphericalSurface(first.Position().Translated(0.5 * apart),
-                                               0.5 * (first.Radius() + second.Radius()));
   }
-  return result.off <= tolerance ? result : NearMiddle();
+  const double off = off_between_rounds(apart.Magnitude(), radius, other);
+  if (off > tolerance) return {};
+  const gp_Ax3 between = first.Translated(0.5 * apart);
+  if (cylinders) return {new Geom_CylindricalSurface(between, 0.5 * (radius + other)), off};
+  return {new Geom_SphericalSurface(between, 0.5 * (radius + other)), off};
 }
 
 }  // namespace quadrille

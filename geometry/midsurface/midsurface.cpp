@@ -17,7 +17,6 @@
 #include <deque>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <set>
 #include <string_view>
 
@@ -50,16 +49,54 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
+/// The numbers of some of the skin's faces, ascending. \param faces their indices
+template <class Indices>
+std::vector<int> numbers_of(const Skin& skin, const Indices& faces) {
+  std::vector<int> result;
+  result.reserve(faces.size());
+  for (const int face : faces) result.push_back(skin.faces()[face].number());
+  sort_unique(result);
+  return result;
+}
+
 /// The middle surface of one solid.
 struct SolidMiddle {
+  const Skin& skin;
+  const MidSurfaceOptions& options;
   std::string name;  ///< of the solid, in sentences
-  std::vector<JoinedFace> faces;
-  std::vector<Wall> walls;
-  Fillets fillets;
-  CountedTwice twice;
-  std::set<int> narrow;  ///< indices of the skin's faces beside walls that are not much wider than thick
+  std::vector<JoinedFace> faces{};
+  std::vector<Wall> walls{};
+  Fillets fillets{};
+  CountedTwice twice{};
+  std::set<int> narrow{};  ///< indices of the skin's faces beside walls that are not much wider than thick
   double volume = 0;
-  std::vector<std::string> problems;  ///< what was left out or is imprecise, and why
+  std::vector<std::string> problems{};  ///< what was left out or is imprecise, and why
+
+  /// The names of some of the skin's faces. \param faces their indices
+  template <class Indices>
+  std::string names_of(const Indices& indices) const {
+    return face_names(numbers_of(skin, indices));
+  }
+  /// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option
+  /// gives.
+  void tell(const std::string& problem, std::string_view given = "the walls that were found") {
+    if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));
+    problems.push_back(problem);
+  }
+  /// Runs work; reports it where OpenCASCADE fails. \param done in words, "made". \return whether it
+  /// succeeded.
+  bool attempt(std::string_view done, const std::function<void()>& work) {
+    try {
+      work();
+      return true;
+    } catch (const Standard_Failure&) {  // its text does not help users
+      tell(fmt::format("{}: its middle surface cannot be {}, since OpenCASCADE fails on its geometry; check "
+                       "and heal its faces",
+                       name, done),
+           "the rest");
+      return false;
+    }
+  }
 };
 
 /// The volume between the triangles of a solid's faces. \param deflection largest distance from the faces.
@@ -121,11 +158,9 @@ double thickness_over_width(const std::vector<JoinedFace>& part) {
     volume += own * face.coverage.mean;
     for (const TopoDS_Edge& edge : edges_of(BRepTools::OuterWire(face.face))) outer.Add(edge);
   }
-  const EdgeUses uses(part);  // the edge of a pocket is inner to the face around it, outer to the next one
-  for (int i = 0; i < uses.count(); ++i) {
-    if (uses.uses(i).size() == 1 && outer.Contains(uses.edge(i)))
-      perimeter += length_of(TopoDS::Edge(uses.edge(i)));
-  }
+  // The edge of a pocket is inner to the face around it, outer to the next one.
+  for (const auto& [edge, around] : EdgeUses(part))
+    if (around.size() == 1 && outer.Contains(edge)) perimeter += length_of(edge);
   return volume / (width_of(area, perimeter) * area);
 }
 
@@ -135,29 +170,15 @@ constexpr double slender = 12;
 
 /// For each face, the thickness of its connected part over the part's width.
 std::vector<double> thickness_over_width(const SolidMiddle& middle, const std::vector<WallEnd>& ends) {
-  const std::vector<int> group = width_groups(middle.walls, ends);
   std::vector<double> result(middle.faces.size(), 0);
-  std::map<int, std::vector<std::size_t>> by_group;
-  for (std::size_t i = 0; i < result.size(); ++i) by_group[group[middle.faces[i].wall]].push_back(i);
-  for (const auto& [number, indices] : by_group) {
-    std::vector<JoinedFace> faces;
-    for (const std::size_t i : indices) faces.push_back(middle.faces[i]);
-    for (const std::vector<std::size_t>& part : connected_parts(faces)) {
-      std::vector<JoinedFace> own;
-      own.reserve(part.size());
-      for (const std::size_t i : part) own.push_back(faces[i]);
-      const double ratio = thickness_over_width(own);
-      for (const std::size_t i : part) result[indices[i]] = ratio;
-    }
+  for (const auto& part : connected_parts(middle.faces, width_groups(middle.walls, ends))) {
+    std::vector<JoinedFace> own;
+    own.reserve(part.size());
+    for (const std::size_t i : part) own.push_back(middle.faces[i]);
+    const double ratio = thickness_over_width(own);
+    for (const std::size_t i : part) result[i] = ratio;
   }
   return result;
-}
-
-/// Adds a problem with options.partial; otherwise throws it as an error. \param given what the option gives.
-void tell(const std::string& problem, const std::string& name, const MidSurfaceOptions& options,
-          std::vector<std::string>& problems, std::string_view given = "the walls that were found") {
-  if (!options.partial) throw failure(name, fmt::format("{}; `partial` gives {}", problem, given));
-  problems.push_back(problem);
 }
 
 /// The sentence for a solid that is not thin.
@@ -166,26 +187,6 @@ std::string not_thin_sentence(const std::string& solid, const MidSurfaceOptions&
       "{} is not a thin solid: walls thinner than {:g} times their width do not make up its volume; mesh it "
       "as a solid, or its skin with quadrille mesh",
       solid, options.thickest);
-}
-
-std::string face_names(const std::vector<int>& numbers) {
-  std::vector<std::string> names;
-  constexpr std::size_t names_shown = 12;
-  for (std::size_t i = 0; i < std::min(names_shown, numbers.size()); ++i) {
-    names.push_back(fmt::format("Face{}", numbers[i]));
-  }
-  if (numbers.size() > names_shown) names.push_back(fmt::format("{} more", numbers.size() - names_shown));
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-/// The numbers of some of the skin's faces, ascending. \param faces their indices
-template <class Indices>
-std::vector<int> numbers_of(const Skin& skin, const Indices& faces) {
-  std::vector<int> result;
-  result.reserve(faces.size());
-  for (const int face : faces) result.push_back(skin.faces()[face].number());
-  sort_unique(result);
-  return result;
 }
 
 /// The walls with a B-spline middle that continue into others of that kind. They are nearly tangent to each
@@ -199,18 +200,16 @@ std::set<int> blended_walls(const std::vector<Wall>& walls, const std::vector<Wa
 }
 
 /// The sentence that names the walls that cannot be joined.
-std::string cannot_join(const std::string& name, const Skin& skin, const std::vector<Wall>& walls,
-                        const std::set<int>& blended) {
+std::string cannot_join(const SolidMiddle& middle, const std::set<int>& blended) {
   std::vector<int> faces;
-  for (const int wall : blended) append(faces, both_sides(walls[wall]));
-  return fmt::format("{}: {} free-form walls continue into each other, which cannot be joined yet: {}", name,
-                     blended.size(), face_names(numbers_of(skin, faces)));
+  for (const int wall : blended) append(faces, both_sides(middle.walls[wall]));
+  return fmt::format("{}: {} free-form walls continue into each other, which cannot be joined yet: {}",
+                     middle.name, blended.size(), middle.names_of(faces));
 }
 
 /// If most of the volume of the middle surface is in walls that are not thin, throws an error; with
 /// options.partial keeps the thin walls and reports the others. Leaves nothing of a solid that is not thin.
-void drop_thick(const Skin& skin, const std::string& name, const std::vector<WallEnd>& ends,
-                const MidSurfaceOptions& options, SolidMiddle& middle) {
+void drop_thick(const std::vector<WallEnd>& ends, SolidMiddle& middle) {
   const std::vector<double> ratios = thickness_over_width(middle, ends);
   double all = 0, thick_volume = 0, narrow_volume = 0;
   std::set<int> faces;
@@ -224,7 +223,7 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
       narrow_volume += volume;
       middle.narrow.insert(around.begin(), around.end());
     }
-    if (ratios[i] > options.thickest) {
+    if (ratios[i] > middle.options.thickest) {
       thick_volume += volume;
       faces.insert(around.begin(), around.end());
     } else {
@@ -237,39 +236,38 @@ void drop_thick(const Skin& skin, const std::string& name, const std::vector<Wal
   if (is_thin) return;
   middle.faces = std::move(thin);
   if (middle.faces.empty()) return;
-  tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width", name,
-                   face_names(numbers_of(skin, faces)), options.thickest),
-       name, options, middle.problems);
+  middle.tell(fmt::format("{} is thin only in places: {} are farther apart than {:g} times their width",
+                          middle.name, middle.names_of(faces), middle.options.thickest));
 }
 
 /// Reports which fitted walls of the middle surface miss the tolerance even on the finest grid.
-void check_fits(const Skin& skin, const std::string& name, const MidSurfaceOptions& options,
-                SolidMiddle& middle) {
-  const double most = most_tolerances * options.tolerance;
+void check_fits(SolidMiddle& middle) {
+  const double most = most_tolerances * middle.options.tolerance;
   std::set<int> checked;
   for (const JoinedFace& face : middle.faces) {
     const Wall& wall = middle.walls[face.wall];
     if (face.step || wall.off <= most * wall.thickness || !checked.insert(face.wall).second) continue;
-    tell(fmt::format("{}: the middle between {} is off by up to {} mm, more than {:g} % of the thickness",
-                     name, face_names(numbers_of(skin, both_sides(wall))), number_text(wall.off), 100 * most),
-         name, options, middle.problems);
+    middle.tell(
+        fmt::format("{}: the middle between {} is off by up to {} mm, more than {:g} % of the thickness",
+                    middle.name, middle.names_of(both_sides(wall)), number_text(wall.off), 100 * most));
   }
 }
 
 /// \param told called with the fraction that is done. \param result with the solid's name. It gets no faces
 /// if the solid is not thin.
-void make_middle(const Skin& skin, const MidSurfaceOptions& options, const ExecutionContext& context,
-                 const std::function<void(double)>& told, SolidMiddle& result) {
-  const std::string& name = result.name;
+void make_middle(const ExecutionContext& context, const std::function<void(double)>& told,
+                 SolidMiddle& result) {
+  const Skin& skin = result.skin;
+  const double tolerance = result.options.tolerance;
   result.volume = volume_of(skin.solid());
   const std::vector<int> surfaces = surface_numbers(skin);
-  result.walls = find_walls(skin, surfaces, options.tolerance, context);
+  result.walls = find_walls(skin, surfaces, tolerance, context);
   if (result.walls.empty()) return;
   const std::vector<WallEnd> ends = find_wall_ends(skin, result.walls, surfaces, context);
   constexpr std::size_t most_blended = 4;
   std::set<int> blended = blended_walls(result.walls, ends);
   if (blended.size() <= most_blended) blended.clear();
-  if (!blended.empty()) tell(cannot_join(name, skin, result.walls, blended), name, options, result.problems);
+  if (!blended.empty()) result.tell(cannot_join(result, blended));
   std::vector<WallEnd> fences = find_rim_ends(skin, result.walls, surfaces, context);
   fences.insert(fences.end(), ends.begin(), ends.end());
   std::vector<std::vector<TopoDS_Face>> pieces(result.walls.size());
@@ -279,50 +277,30 @@ void make_middle(const Skin& skin, const MidSurfaceOptions& options, const Execu
     try {
       pieces[wall] = wall_pieces(skin, result.walls, static_cast<int>(wall), fences, context);
     } catch (const Standard_Failure&) {  // its text does not help users
-      tell(fmt::format("{}: the wall between {} cannot be cut out of its middle surface; heal or simplify "
-                       "these faces",
-                       name, face_names(numbers_of(skin, both_sides(result.walls[wall])))),
-           name, options, result.problems);
+      result.tell(fmt::format(
+          "{}: the wall between {} cannot be cut out of its middle surface; heal or simplify these faces",
+          result.name, result.names_of(both_sides(result.walls[wall]))));
     }
   }
   told(0.9);
-  result.faces = join_walls(skin, result.walls, ends, pieces, options.tolerance, context);
+  result.faces = join_walls(skin, result.walls, ends, pieces, tolerance, context);
   result.fillets = add_fillets(skin, result.walls, result.volume, context, result.faces);
-  drop_thick(skin, name, ends, options, result);
-  check_fits(skin, name, options, result);
-}
-
-/// Runs work on one solid; reports it where OpenCASCADE fails. \param done in words, "made".
-/// \return whether it succeeded.
-bool attempt(const MidSurfaceOptions& options, std::string_view done, SolidMiddle& solid,
-             const std::function<void()>& work) {
-  try {
-    work();
-    return true;
-  } catch (const Standard_Failure&) {  // its text does not help users
-    tell(fmt::format("{}: its middle surface cannot be {}, since OpenCASCADE fails on its geometry; check "
-                     "and heal its faces",
-                     solid.name, done),
-         solid.name, options, solid.problems, "the rest");
-    return false;
-  }
+  drop_thick(ends, result);
+  check_fits(result);
 }
 
 /// A compound with a shell for each connected part; with single faces if more than two of them share an edge.
 TopoDS_Compound assemble(const std::vector<JoinedFace>& faces) {
+  std::set<std::size_t> branched;  // faces, one at each edge of more than two
+  for (const auto& [edge, around] : EdgeUses(faces))
+    if (around.size() > 2) branched.insert(around.front().face);
   std::vector<TopoDS_Shape> result;
   const BRep_Builder builder;
   for (const std::vector<std::size_t>& part : connected_parts(faces)) {
-    TopTools_IndexedDataMapOfShapeListOfShape around;
     TopoDS_Shell shell;
     builder.MakeShell(shell);
-    for (const std::size_t i : part) {
-      builder.Add(shell, faces[i].face);
-      TopExp::MapShapesAndAncestors(faces[i].face, TopAbs_EDGE, TopAbs_FACE, around);
-    }
-    const bool manifold = std::all_of(around.cbegin(), around.cend(),
-                                      [](const TopTools_ListOfShape& list) { return list.Extent() <= 2; });
-    if (manifold)
+    for (const std::size_t i : part) builder.Add(shell, faces[i].face);
+    if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return branched.count(i) != 0; }))
       result.push_back(shell);
     else
       for (const std::size_t i : part) result.push_back(faces[i].face);
@@ -384,20 +362,20 @@ void check_volume(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& n
 }
 
 /// Whether a face of the solid goes on in the plane of a wall's side: no fillet or slope does.
-bool in_plane_of_side(const Skin& skin, const std::vector<Wall>& walls, int number) {
-  const auto& faces = skin.faces();
+bool in_plane_of_side(const SolidMiddle& middle, int number) {
+  const auto& faces = middle.skin.faces();
   const auto face = std::find_if(faces.begin(), faces.end(),
                                  [&](const SkinFace& other) { return other.number() == number; });
   if (face == faces.end() || face->surface().GetType() != GeomAbs_Plane) return false;
-  return std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) {
+  return std::any_of(middle.walls.begin(), middle.walls.end(), [&](const Wall& wall) {
     const std::vector<int> sides = both_sides(wall);
     return std::any_of(sides.begin(), sides.end(),
-                       [&](int side) { return on_one_surface(*face, faces[side], skin.size()); });
+                       [&](int side) { return on_one_surface(*face, faces[side], middle.skin.size()); });
   });
 }
 
 /// Where free edges end inside the material, by faces of the solid, and what to do about it.
-std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, const Skin& skin) {
+std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle) {
   constexpr std::size_t places_shown = 4;
   std::vector<std::string> places;
   for (const std::vector<int>& faces : result.stray_faces) {
@@ -410,7 +388,7 @@ std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, 
   if (more > 0) places.push_back(fmt::format("and in {} more place{}", more, more == 1 ? "" : "s"));
   std::vector<int> alone = result.unpaired;  // the faces there that belong to no wall
   std::erase_if(alone, [&](int face) {
-    return in_plane_of_side(skin, middle.walls, face) ||
+    return in_plane_of_side(middle, face) ||
            std::none_of(result.stray_faces.begin(), result.stray_faces.end(), [&](const auto& faces) {
              return std::find(faces.begin(), faces.end(), face) != faces.end();
            });
@@ -427,7 +405,7 @@ std::string stray_sentence(const MidSurface& result, const SolidMiddle& middle, 
 }
 
 /// The parts into which the middle surface of a solid falls, by faces of the solid.
-std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
+std::string parts_sentence(const SolidMiddle& middle) {
   const auto all = connected_parts(middle.faces);
   constexpr std::size_t parts_shown = 4;
   std::vector<std::string> parts;
@@ -435,7 +413,7 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
     std::set<int> faces;
     for (const std::size_t i : all[p])
       faces.insert(middle.faces[i].coverage.faces.begin(), middle.faces[i].coverage.faces.end());
-    parts.push_back(face_names(numbers_of(skin, faces)));
+    parts.push_back(middle.names_of(faces));
   }
   if (all.size() > parts_shown) parts.push_back(fmt::format("and {} more", all.size() - parts_shown));
   return fmt::format(
@@ -444,39 +422,38 @@ std::string parts_sentence(const SolidMiddle& middle, const Skin& skin) {
 }
 
 /// One sentence for each check of a solid that failed. \param numbers of the faces of the result.
-std::vector<std::string> find_problems(const SolidMiddle& middle, const Skin& skin,
-                                       const TopTools_IndexedMapOfShape& numbers, MidSurface& checked) {
+std::vector<std::string> find_problems(const SolidMiddle& middle, const TopTools_IndexedMapOfShape& numbers,
+                                       MidSurface& checked) {
   std::vector<std::string> problems;
   check_volume(middle, numbers, checked, problems);
   if (middle.fillets.softer > 0)
     checked.warnings.push_back(fmt::format(
         "{}: the thickness beside the fillets or welds at {} holds less than they add to the stiffness: "
         "walls that bend or twist there are up to {:.0f} % too soft; mesh the solid if that matters",
-        middle.name, face_names(numbers_of(skin, middle.fillets.left_out)), 100 * middle.fillets.softer));
+        middle.name, middle.names_of(middle.fillets.left_out), 100 * middle.fillets.softer));
   if (!middle.narrow.empty())
     checked.warnings.push_back(fmt::format(
         "{}: walls are less than {:g} times as wide as thick (between {}): where such walls bend across, or "
         "the section distorts, a shell can be some 5 % too soft, more where they are narrower still; compare "
         "it with a mesh of the solid",
-        middle.name, slender, face_names(numbers_of(skin, middle.narrow))));
+        middle.name, slender, middle.names_of(middle.narrow)));
   std::vector<int> hollow;
-  for (const std::size_t face : hollow_joints(skin, middle.faces))
+  for (const std::size_t face : hollow_joints(middle.skin, middle.faces))
     hollow.push_back(numbers.FindIndex(middle.faces[face].face));
   if (!hollow.empty())
     checked.warnings.push_back(fmt::format(
         "{}: hollow sections meet at the result's {}: a shell has no depth there and can be some 15 % too "
         "soft under loads that bend the walls of the joint; compare it with a mesh of the solid",
         middle.name, face_names(hollow)));
-  if (checked.parts != 1) problems.push_back(parts_sentence(middle, skin));
-  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle, skin));
+  if (checked.parts != 1) problems.push_back(parts_sentence(middle));
+  if (!checked.stray_edges.empty()) problems.push_back(stray_sentence(checked, middle));
   return problems;
 }
 
 /// The checks of one solid's middle, and its figures. Writes the descriptions of its faces to `result`.
 /// \param numbers of the faces of the result.
-MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin,
-                       const TopTools_IndexedMapOfShape& numbers, const ExecutionContext& context,
-                       MidSurface& result) {
+MidSurface check_solid(const SolidMiddle& middle, int solid, const TopTools_IndexedMapOfShape& numbers,
+                       const ExecutionContext& context, MidSurface& result) {
   MidSurface checked{result.model};
   for (const auto& [joined, own, step, coverage] : middle.faces) {
     context.check();
@@ -487,7 +464,7 @@ MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin,
             .thickest = coverage.thickest,
             .thickness = coverage.mean,
             .area = area_of(joined),
-            .solid_faces = numbers_of(skin, coverage.faces),
+            .solid_faces = numbers_of(middle.skin, coverage.faces),
             .solid = solid,
             .step = step,
             .fitted = wall.fitted && !step};
@@ -496,10 +473,10 @@ MidSurface check_solid(const SolidMiddle& middle, int solid, const Skin& skin,
   }
   checked.parts = static_cast<int>(connected_parts(middle.faces).size());
   checked.volume = middle.volume;
-  check_rims(skin, middle.walls, middle.faces, map_of(result.model.shape().shape, TopAbs_EDGE), context,
-             checked);
+  check_rims(middle.skin, middle.walls, middle.faces, map_of(result.model.shape().shape, TopAbs_EDGE),
+             context, checked);
   checked.counted_twice = middle.twice.sum();
-  for (const std::size_t i : faces_of_wrong_thickness(skin, middle.walls, middle.faces, context))
+  for (const std::size_t i : faces_of_wrong_thickness(middle.skin, middle.walls, middle.faces, context))
     checked.uneven.push_back(numbers.FindIndex(middle.faces[i].face));
   sort_unique(checked.unpaired);
   return checked;
@@ -522,8 +499,7 @@ void add_checked(const MidSurface& checked, MidSurface& result) {
 }
 
 /// Describes the faces and checks them, solid by solid.
-void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& skins,
-                  const MidSurfaceOptions& options, ExecutionContext& context, MidSurface& result) {
+void check_solids(std::vector<SolidMiddle>& middles, ExecutionContext& context, MidSurface& result) {
   const auto& shape = result.model.shape().shape;
   const TopTools_IndexedMapOfShape numbers = map_of(shape, TopAbs_FACE);
   result.faces.resize(numbers.Extent());
@@ -531,14 +507,13 @@ void check_solids(std::vector<SolidMiddle>& middles, const std::deque<Skin>& ski
     context.check();
     SolidMiddle& middle = middles[solid];
     const auto check = [&] {
-      middle.twice = counted_twice(skins[solid], middle.walls, middle.faces, middle.fillets);
-      MidSurface checked =
-          check_solid(middle, static_cast<int>(solid) + 1, skins[solid], numbers, context, result);
-      for (const std::string& problem : find_problems(middle, skins[solid], numbers, checked))
-        tell(problem, middle.name, options, middle.problems, "it nevertheless");
+      middle.twice = counted_twice(middle.walls, middle.faces, middle.fillets);
+      MidSurface checked = check_solid(middle, static_cast<int>(solid) + 1, numbers, context, result);
+      for (const std::string& problem : find_problems(middle, numbers, checked))
+        middle.tell(problem, "it nevertheless");
       add_checked(checked, result);
     };
-    if (!middle.faces.empty()) attempt(options, "checked", middle, check);
+    if (!middle.faces.empty()) middle.attempt("checked", check);
     append(result.problems, middle.problems);
   }
   BRepTools::Clean(shape);  // removes the triangles used for sampling
@@ -552,24 +527,22 @@ std::function<double(int, const Vector3&)> thickness_source(const std::vector<So
                                                             std::shared_ptr<const std::deque<Skin>> skins,
                                                             const MidSurface& result) {
   struct Face {
-    const Skin* skin = nullptr;
     Wall wall;
     Coverage coverage;
     bool varies = false;
   };
   const TopTools_IndexedMapOfShape numbers = map_of(result.model.shape().shape, TopAbs_FACE);
   const auto faces = std::make_shared<std::vector<Face>>(result.faces.size());  // by number minus 1
-  for (std::size_t solid = 0; solid < middles.size(); ++solid) {
-    for (const JoinedFace& joined : middles[solid].faces) {
+  for (const SolidMiddle& middle : middles) {
+    for (const JoinedFace& joined : middle.faces) {
       const int index = numbers.FindIndex(joined.face) - 1;
-      (*faces)[index] = {&(*skins)[solid], middles[solid].walls[joined.wall], joined.coverage,
-                         varies(result.faces[index])};
+      (*faces)[index] = {middle.walls[joined.wall], joined.coverage, varies(result.faces[index])};
     }
   }
   return [skins = std::move(skins), faces](int face, const Vector3& point) {
     const Face& own = faces->at(face - 1);
     if (!own.varies) return own.coverage.mean;
-    return thickness_at(own.coverage, own.wall, *own.skin, gp_Pnt(point.x(), point.y(), point.z()));
+    return thickness_at(own.coverage, own.wall, gp_Pnt(point.x(), point.y(), point.z()));
   };
 }
 
@@ -582,15 +555,14 @@ std::vector<SolidMiddle> make_middles(const std::deque<Skin>& skins, const std::
       context.report(Stage::midsurface, (done + fraction) / static_cast<double>(skins.size()));
     };
     told(0);
-    std::vector<int> all_faces(skin.faces().size());
-    std::iota(all_faces.begin(), all_faces.end(), 0);
-    SolidMiddle middle;
-    middle.name = skins.size() == 1 ? name
-                                    : fmt::format("{}: solid {} ({})", name, result.size() + 1,
-                                                  face_names(numbers_of(skin, all_faces)));
-    if (!attempt(options, "made", middle, [&] { make_middle(skin, options, context, told, middle); }))
-      middle.faces.clear();
-    result.push_back(std::move(middle));
+    SolidMiddle& middle = result.emplace_back(SolidMiddle{skin, options, name});
+    if (skins.size() > 1) {
+      std::vector<int> numbers;
+      for (const SkinFace& face : skin.faces()) numbers.push_back(face.number());
+      sort_unique(numbers);
+      middle.name = fmt::format("{}: solid {} ({})", name, result.size(), face_names(numbers));
+    }
+    if (!middle.attempt("made", [&] { make_middle(context, told, middle); })) middle.faces.clear();
   }
   return result;
 }
@@ -613,7 +585,7 @@ MidSurface make(const CadModel& model, const MidSurfaceOptions& options, Executi
     throw failure(name, problems.empty() ? not_thin_sentence(name, options) : problems.front());
   MidSurface result{CadModel(std::make_shared<CadShape>(assemble(all), name + " (middle surface)"))};
   result.face_names = model.face_names();
-  check_solids(middles, *skins, options, context, result);
+  check_solids(middles, context, result);
   for (const SolidMiddle& middle : middles) {
     if (middle.faces.empty() && middle.problems.empty())
       result.warnings.push_back("left out: " + not_thin_sentence(middle.name, options));

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <gp_Pln.hxx>
 #include <iterator>
 
 #include "geometry/cad/bounding_box.hpp"
@@ -28,13 +29,12 @@ std::vector<SkinTriangle> triangles_of(const TopoDS_Face& face) {
   for (int i = 1; i <= mesh->NbTriangles(); ++i) {
     std::array<int, 3> nodes{};
     mesh->Triangle(i).Get(nodes[0], nodes[1], nodes[2]);
-    const gp_Vec ab(mesh->Node(nodes[0]), mesh->Node(nodes[1]));
-    const gp_Vec ac(mesh->Node(nodes[0]), mesh->Node(nodes[2]));
     SkinTriangle triangle;
     for (int j = 0; j < 3; ++j) {
       triangle.points[j] = mesh->Node(nodes[j]).Transformed(place.Transformation());
       triangle.uv[j] = mesh->UVNode(nodes[j]);
     }
+    const gp_Vec ab(triangle.points[0], triangle.points[1]), ac(triangle.points[0], triangle.points[2]);
     triangle.area = 0.5 * ab.Crossed(ac).Magnitude();
     result.push_back(triangle);
   }
@@ -85,6 +85,43 @@ std::vector<FaceSample> grid_samples(const TopoDS_Face& face, int at_least) {
     }
   }
   return result;
+}
+
+/// The point of a surface on a line, starting from a guess.
+std::optional<SkinFace::LineHit> polished(const gp_Lin& line, const BRepAdaptor_Surface& surface, double near,
+                                          gp_Pnt2d uv, double along) {
+  const gp_Vec direction(line.Direction());
+  for (int step = 0; step < 12; ++step) {  // Newton iteration
+    gp_Pnt at;
+    gp_Vec du, dv;
+    surface.D1(uv.X(), uv.Y(), at, du, dv);
+    const gp_Vec off(at, line.Location().Translated(along * direction));
+    if (off.Magnitude() < near) return SkinFace::LineHit{uv, along};
+    const gp_Vec normal = du.Crossed(dv);
+    const double volume = normal.Dot(direction);
+    if (std::abs(volume) < 1e-9 * normal.Magnitude() || !(normal.Magnitude() > 0)) return std::nullopt;
+    along -= off.Dot(normal) / volume;
+    uv.SetX(uv.X() + off.Crossed(dv).Dot(direction) / volume);
+    uv.SetY(uv.Y() + du.Crossed(off).Dot(direction) / volume);
+  }
+  return std::nullopt;
+}
+
+std::optional<SkinFace::LineHit> hit_at(const gp_Lin& line, const SkinTriangle& flat,
+                                        const BRepAdaptor_Surface& surface, double near) {
+  const gp_Vec along(line.Direction()), ab(flat.points[0], flat.points[1]),
+      ac(flat.points[0], flat.points[2]);
+  // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
+  const gp_Vec normal = along.Crossed(ac);
+  const double volume = ab.Dot(normal);
+  if (std::abs(volume) < 1e-12 * ab.Magnitude() * ac.Magnitude()) return std::nullopt;
+  const gp_Vec from(flat.points[0], line.Location());
+  const double b = from.Dot(normal) / volume;
+  const gp_Vec aside = from.Crossed(ab);
+  const double c = along.Dot(aside) / volume;
+  constexpr double beyond = 1e-9;
+  if (b < -beyond || c < -beyond || b + c > 1 + beyond) return std::nullopt;
+  return polished(line, surface, near, blend(flat.uv, 1 - b - c, b), ac.Dot(aside) / volume);
 }
 
 }  // namespace
@@ -154,72 +191,34 @@ std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
   return holds(uv) ? std::optional(point(uv)) : std::nullopt;
 }
 
-RayFace::RayFace(const SkinFace& face, double near) : face_(face), surface_(face.surface()), near_(near) {
-  if (has_many_holes(face.face())) {
-    plane_ = surface_.Plane();
-    return;
-  }
-  triangles_ = triangles_of(face.face());
+void SkinFace::prepare_hits(double near) {
+  near_ = near;
+  has_many_holes_ = has_many_holes(face_);
+  if (has_many_holes_) return;
+  triangles_ = triangles_of(face_);
   std::vector<Bnd_Box> boxes(triangles_.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (const gp_Pnt& corner : triangles_[i].points) boxes[i].Add(corner);
-    boxes[i].Enlarge(near_);
+    boxes[i].Enlarge(near);
   }
-  boxes_.emplace(boxes);
+  boxes_ = BoxTree(boxes);
 }
 
-std::vector<RayFace::Hit> RayFace::hits(const gp_Lin& line, double from, double to) const {
-  if (plane_) {
-    const double slope = line.Direction().Dot(plane_->Axis().Direction());
+std::vector<SkinFace::LineHit> SkinFace::hits(const gp_Lin& line, double from, double to) const {
+  std::vector<LineHit> result;
+  if (has_many_holes_) {
+    const gp_Pln plane = adaptor_->Plane();
+    const gp_Vec normal(plane.Axis().Direction());
+    const double slope = gp_Vec(line.Direction()).Dot(normal);
     if (std::abs(slope) < 1e-9) return {};
-    const double along =
-        gp_Vec(line.Location(), plane_->Location()).Dot(gp_Vec(plane_->Axis().Direction())) / slope;
-    Hit hit{{}, along};
+    const double along = gp_Vec(line.Location(), plane.Location()).Dot(normal) / slope;
     double u = 0, v = 0;
-    ElSLib::Parameters(*plane_, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
-    hit.uv = {u, v};
-    if (!face_.holds(hit.uv)) return {};
-    return {hit};
+    ElSLib::Parameters(plane, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
+    if (holds({u, v})) result.push_back({{u, v}, along});
   }
-  std::vector<Hit> result;
-  for (const std::size_t i : boxes_->met(line, from, to)) {
-    if (const auto found = hit(line, triangles_[i])) result.push_back(*found);
-  }
+  for (const std::size_t i : boxes_.met(line, from, to))
+    if (const auto hit = hit_at(line, triangles_[i], *adaptor_, near_)) result.push_back(*hit);
   return result;
-}
-
-std::optional<RayFace::Hit> RayFace::hit(const gp_Lin& line, const SkinTriangle& flat) const {
-  const gp_Vec along(line.Direction()), ab(flat.points[0], flat.points[1]),
-      ac(flat.points[0], flat.points[2]);
-  // Barycentric coordinates, with a small margin. A line through a shared edge may give a hit twice.
-  const gp_Vec normal = along.Crossed(ac);
-  const double volume = ab.Dot(normal);
-  if (std::abs(volume) < 1e-12 * ab.Magnitude() * ac.Magnitude()) return std::nullopt;
-  const gp_Vec from(flat.points[0], line.Location());
-  const double b = from.Dot(normal) / volume;
-  const gp_Vec aside = from.Crossed(ab);
-  const double c = along.Dot(aside) / volume;
-  constexpr double beyond = 1e-9;
-  if (b < -beyond || c < -beyond || b + c > 1 + beyond) return std::nullopt;
-  return polished(line, blend(flat.uv, 1 - b - c, b), ac.Dot(aside) / volume);
-}
-
-std::optional<RayFace::Hit> RayFace::polished(const gp_Lin& line, gp_Pnt2d uv, double along) const {
-  const gp_Vec direction(line.Direction());
-  for (int step = 0; step < 12; ++step) {  // Newton iteration
-    gp_Pnt at;
-    gp_Vec du, dv;
-    surface_.D1(uv.X(), uv.Y(), at, du, dv);
-    const gp_Vec off(at, line.Location().Translated(along * direction));
-    if (off.Magnitude() < near_) return Hit{uv, along};
-    const gp_Vec normal = du.Crossed(dv);
-    const double volume = normal.Dot(direction);
-    if (std::abs(volume) < 1e-9 * normal.Magnitude() || !(normal.Magnitude() > 0)) return std::nullopt;
-    along -= off.Dot(normal) / volume;
-    uv.SetX(uv.X() + off.Crossed(dv).Dot(direction) / volume);
-    uv.SetY(uv.Y() + du.Crossed(off).Dot(direction) / volume);
-  }
-  return std::nullopt;
 }
 
 Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers) : solid_(solid) {
@@ -229,15 +228,21 @@ Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numb
   for (int i = 1; i <= map_.Extent(); ++i) {
     faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)));
   }
-  Bnd_Box box;
-  for (const SkinFace& face : faces_) box.Add(face.box());
-  size_ = std::sqrt(box.SquareExtent());
+  Bnd_Box whole;
   std::vector<Bnd_Box> boxes;
-  for (const SkinFace& face : faces_) {
-    rays_.emplace_back(face, 1e-8 * size_);
-    boxes.push_back(face.box());
+  for (const SkinFace& face : faces_) whole.Add(boxes.emplace_back(face.box()));
+  boxes_ = BoxTree(boxes);
+  size_ = std::sqrt(whole.SquareExtent());
+  for (SkinFace& face : faces_) face.prepare_hits(1e-8 * size_);
+}
+
+std::vector<std::pair<TopoDS_Edge, int>> Skin::neighbors(const SkinFace& of) const {
+  std::vector<std::pair<TopoDS_Edge, int>> result;
+  for (const TopoDS_Edge& edge : edges_of(of.face())) {
+    for (const TopoDS_Shape& face : faces_of(edge))
+      if (!face.IsSame(of.face())) result.emplace_back(edge, index_of(face));
   }
-  boxes_.emplace(boxes);
+  return result;
 }
 
 std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
@@ -254,8 +259,8 @@ std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
 std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
   const gp_Lin line(from, direction);
   Hit best;
-  for (const std::size_t face : boxes_->met(line, 1e-6 * size_, size_)) {
-    for (const RayFace::Hit& hit : rays_[face].hits(line, 0, size_)) {
+  for (const std::size_t face : boxes_.met(line, 1e-6 * size_, size_)) {
+    for (const SkinFace::LineHit& hit : faces_[face].hits(line, 0, size_)) {
       if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
       best = {static_cast<int>(face), hit.uv, faces_[face].point(hit.uv), hit.along};
     }
@@ -278,8 +283,8 @@ bool Skin::in_material(const gp_Pnt& point) const {
 
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
-  for (const std::size_t face : boxes_->met(line, -reach, reach)) {
-    for (const RayFace::Hit& hit : rays_[face].hits(line, -reach, reach)) {
+  for (const std::size_t face : boxes_.met(line, -reach, reach)) {
+    for (const SkinFace::LineHit& hit : faces_[face].hits(line, -reach, reach)) {
       if (std::abs(hit.along) < reach) return true;
     }
   }

@@ -7,15 +7,16 @@
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
 #include <array>
 #include <gp_Dir.hxx>
 #include <gp_Lin.hxx>
-#include <gp_Pln.hxx>
 #include <gp_Pnt.hxx>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/midsurface/box_tree.hpp"
@@ -40,6 +41,13 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face, int at_least);
 /// between parts of its edges.
 void triangulate(const TopoDS_Shape& shape, double deflection, double angle = 0.4);
 
+/// A triangle of a face.
+struct SkinTriangle {
+  std::array<gp_Pnt, 3> points;  ///< on the surface
+  std::array<gp_Pnt2d, 3> uv;
+  double area = 0;
+};
+
 /// One face of a solid. Evaluation uses internal caches: threads must not share an object.
 class SkinFace {
  public:
@@ -54,6 +62,10 @@ class SkinFace {
   std::optional<gp_Dir> outward(const gp_Pnt2d& uv) const;
   /// Parameters of the closest point of the (untrimmed) surface.
   gp_Pnt2d closest(const gp_Pnt& point) const;
+  /// outward() at the closest point of the (untrimmed) surface.
+  std::optional<gp_Dir> outward_at(const gp_Pnt& near) const { return outward(closest(near)); }
+  /// The distance from the (untrimmed) surface.
+  double distance(const gp_Pnt& from) const { return point(closest(from)).Distance(from); }
   gp_Pnt point(const gp_Pnt2d& uv) const { return adaptor_->Value(uv.X(), uv.Y()); }
   /// The closest point of the surface, if it lies in the face.
   std::optional<gp_Pnt> foot(const gp_Pnt& point) const;
@@ -63,6 +75,18 @@ class SkinFace {
 
   std::vector<FaceSample> samples(int at_least) const { return sample_face(face_, at_least); }
 
+  struct LineHit {
+    gp_Pnt2d uv;
+    double along = 0;  ///< parameter on the line
+  };
+  /// Must be called once before hits(), of a face with triangles unless it has many holes. \param near points
+  /// closer to a line than this lie on it.
+  void prepare_hits(double near);
+  /// Intersections with a line, about between two of its parameters: with the triangles first, then with the
+  /// exact surface; a plane with many holes has no triangles. On tori and B-splines this is about a hundred
+  /// times faster than OpenCASCADE. Time: logarithmic in the triangles.
+  std::vector<LineHit> hits(const gp_Lin& line, double from, double to) const;
+
  private:
   TopoDS_Face face_;
   int number_;
@@ -71,40 +95,10 @@ class SkinFace {
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
   std::shared_ptr<ClosestPoint> inverse_;
   std::shared_ptr<InsideTest> inside_;
-};
-
-/// A triangle of a face.
-struct SkinTriangle {
-  std::array<gp_Pnt, 3> points;  ///< on the surface
-  std::array<gp_Pnt2d, 3> uv;
-  double area = 0;
-};
-
-/// Intersects lines with a face: with its triangles first, then with its exact surface; a plane with many
-/// holes has no triangles. On tori and B-splines this is about a hundred times faster than OpenCASCADE.
-class RayFace {
- public:
-  struct Hit {
-    gp_Pnt2d uv;
-    double along = 0;  ///< parameter on the line
-  };
-  /// \param face with triangles unless it has many holes; it must outlive this. \param near points closer to
-  /// a line than this lie on it.
-  RayFace(const SkinFace& face, double near);
-  /// Hits about between two parameters of the line. Time: logarithmic in the triangles.
-  std::vector<Hit> hits(const gp_Lin& line, double from, double to) const;
-
- private:
-  std::optional<Hit> hit(const gp_Lin& line, const SkinTriangle& flat) const;
-  /// The point of the surface on the line, starting from a guess.
-  std::optional<Hit> polished(const gp_Lin& line, gp_Pnt2d uv, double along) const;
-
-  const SkinFace& face_;
-  const BRepAdaptor_Surface& surface_;
-  std::optional<gp_Pln> plane_;  ///< of a face with many holes
-  std::vector<SkinTriangle> triangles_;
-  std::optional<BoxTree> boxes_;  ///< of the triangles
-  double near_;
+  std::vector<SkinTriangle> triangles_;  ///< empty if the face has many holes
+  BoxTree boxes_;                        ///< of the triangles
+  double near_ = 0;                      ///< see prepare_hits()
+  bool has_many_holes_ = false;          ///< lines are then intersected with its plane
 };
 
 /// The faces of one solid.
@@ -129,6 +123,8 @@ class Skin {
   /// The faces around each edge, and around one of them; the same twice at a seam.
   const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
   const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }
+  /// The edges of a face, but not its seams, each with the index of the face on its other side.
+  std::vector<std::pair<TopoDS_Edge, int>> neighbors(const SkinFace& of) const;
   double size() const { return size_; }  ///< diagonal of the bounding box
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
@@ -146,8 +142,7 @@ class Skin {
   TopTools_IndexedDataMapOfShapeListOfShape around_;
   std::vector<SkinFace> faces_;
   double size_ = 0;
-  std::vector<RayFace> rays_;     ///< one for each face
-  std::optional<BoxTree> boxes_;  ///< of the faces
+  BoxTree boxes_;  ///< of the faces
 };
 
 }  // namespace quadrille

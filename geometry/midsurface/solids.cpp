@@ -20,12 +20,6 @@ namespace quadrille {
 
 namespace {
 
-/// Solids, and the numbers of their faces.
-struct Solids {  // NOLINT(bugprone-exception-escape): OpenCASCADE's maps do not say noexcept
-  std::vector<TopoDS_Shape> solids;
-  TopTools_DataMapOfShapeInteger numbers;
-};
-
 /// The solid, oriented with the material inside.
 TopoDS_Solid right_way_out(const TopoDS_Shape& shape) {
   TopoDS_Solid solid = TopoDS::Solid(shape);
@@ -33,15 +27,15 @@ TopoDS_Solid right_way_out(const TopoDS_Shape& shape) {
   return solid;
 }
 
-Solids solids_of(const TopoDS_Shape& shape) {
-  Solids result{list_of(shape, TopAbs_SOLID), {}};
+NumberedSolids solids_of(const TopoDS_Shape& shape) {
+  NumberedSolids result{list_of(shape, TopAbs_SOLID), {}};
   for (const TopoDS_Shape& face : list_of(shape, TopAbs_FACE))
     result.numbers.Bind(face, result.numbers.Extent() + 1);
   for (TopoDS_Shape& solid : result.solids) solid = right_way_out(solid);
   return result;
 }
 
-std::deque<Skin> skins_of(const Solids& solids, const ExecutionContext& context) {
+std::deque<Skin> skins_of(const NumberedSolids& solids, const ExecutionContext& context) {
   std::deque<Skin> result;
   for (const TopoDS_Shape& shape : solids.solids) {
     context.check();
@@ -71,7 +65,7 @@ std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins, const Execution
 }
 
 /// Whether the solids contain all points. OpenCASCADE may lose solids where surfaces are nearly tangent.
-bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionContext& context) {
+bool hold(const NumberedSolids& solids, std::vector<gp_Pnt> points, const ExecutionContext& context) {
   for (const TopoDS_Shape& solid : solids.solids) {
     BRepClass3d_SolidClassifier classifier(solid);
     std::erase_if(points, [&](const gp_Pnt& point) {
@@ -83,7 +77,7 @@ bool hold(const Solids& solids, std::vector<gp_Pnt> points, const ExecutionConte
   return points.empty();
 }
 
-Solids fused(const Solids& apart, const ExecutionContext& context) {
+NumberedSolids fused(const NumberedSolids& apart, const ExecutionContext& context) {
   TopTools_ListOfShape first, others;
   for (const TopoDS_Shape& solid : apart.solids) (first.IsEmpty() ? first : others).Append(solid);
   BRepAlgoAPI_Fuse fuse;
@@ -92,11 +86,9 @@ Solids fused(const Solids& apart, const ExecutionContext& context) {
   fuse.SetNonDestructive(Standard_True);
   under_limit(context, [&](const Message_ProgressRange& range) { fuse.Build(range); });
   if (fuse.HasErrors()) throw failure("", "the solids cannot be joined to one");
-  Solids result{list_of(fuse.Shape(), TopAbs_SOLID), {}};
+  NumberedSolids result{list_of(fuse.Shape(), TopAbs_SOLID), {}};
   for (TopTools_DataMapOfShapeInteger::Iterator it(apart.numbers); it.More(); it.Next()) {
-    TopTools_ListOfShape parts = fuse.Modified(it.Key());
-    if (parts.IsEmpty()) parts.Append(it.Key());
-    for (const TopoDS_Shape& part : parts) {
+    for (const TopoDS_Shape& part : images(fuse, it.Key())) {
       // Where two faces coincide the lower number counts, whatever the order of the map.
       if (!result.numbers.IsBound(part) || result.numbers.Find(part) > it.Value())
         result.numbers.Bind(part, it.Value());
@@ -108,14 +100,14 @@ Solids fused(const Solids& apart, const ExecutionContext& context) {
 }  // namespace
 
 std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join, const ExecutionContext& context) {
-  Solids solids = solids_of(shape);
+  NumberedSolids solids = solids_of(shape);
   std::deque<Skin> skins = skins_of(solids, context);
   if (!join || skins.size() < 2) return skins;
-  const GapFillers fillers = fill_gaps(skins, context);
+  const NumberedSolids fillers = fill_gaps(skins, context);
   for (const TopoDS_Shape& filler : fillers.solids) solids.solids.push_back(right_way_out(filler));
   for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
     solids.numbers.Bind(it.Key(), it.Value());
-  const Solids whole = fused(solids, context);
+  const NumberedSolids whole = fused(solids, context);
   if (!hold(whole, points_inside(skins, context), context))
     throw failure("", "the solids cannot be joined to one");
   return skins_of(whole, context);

@@ -59,6 +59,7 @@ class FaceEdge {
     result.last_ = last;
     return result;
   }
+  double middle() const { return 0.5 * (first_ + last_); }
   /// The parameter at a share of the way along it.
   double at(double share) const { return first_ + share * (last_ - first_); }
   bool closed() const {
@@ -66,18 +67,14 @@ class FaceEdge {
   }
   const BRepAdaptor_Curve& curve() const { return curve_; }
 
-  gp_Dir outward(double t) const {
-    const auto normal = face_.outward(face_.closest(curve_.Value(t)));
-    return normal ? *normal : gp::DZ();
-  }
+  gp_Dir outward(double t) const { return face_.outward_at(curve_.Value(t)).value_or(gp::DZ()); }
   gp_Pnt inside(double t, double depth) const {
     return curve_.Value(t).Translated(-depth * gp_Vec(outward(t)));
   }
   /// Whether the other face rises outward from this one at the edge.
   bool in_corner() const {
-    const double middle = 0.5 * (first_ + last_);
-    const auto other = beside_.outward(beside_.closest(curve_.Value(middle)));
-    return other && gp_Vec(*other).Dot(away(middle)) < -0.1;
+    const auto other = beside_.outward_at(curve_.Value(middle()));
+    return other && gp_Vec(*other).Dot(away(middle())) < -0.1;
   }
   /// Unit vector in the face's tangent plane, across the edge and out of the face.
   gp_Vec away(double t) const {
@@ -157,8 +154,8 @@ TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) 
 }
 
 /// Whether the wall contains the point and its thickness direction there is nearly parallel to `across`.
-bool runs_through(const Wall& wall, const Skin& skin, const gp_Pnt& point, const gp_Dir& across) {
-  const auto position = position_in(wall, skin, point);
+bool runs_through(const Wall& wall, const gp_Pnt& point, const gp_Dir& across) {
+  const auto position = position_in(wall, point);
   if (!position || position->thickness() < Precision::Confusion()) return false;
   return std::abs(gp_Dir(gp_Vec(position->feet[0], position->feet[1])).Dot(across)) > nearly_parallel;
 }
@@ -179,16 +176,14 @@ constexpr double at_one_vertex = 1e-4;  // over the thickness
 constexpr std::array<double, 4> searched_depths{0.5, 0.85, 0.15, 0.95};
 
 /// Whether a wall begins behind a point of an edge, at the distance and depth of `next`.
-bool begins_behind(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at,
-                   const NextWall& next) {
+bool begins_behind(const Wall& wall, const FaceEdge& edge, double at, const NextWall& next) {
   const gp_Pnt beyond = edge.inside(at, next.depth).Translated(next.away * edge.away(at));
-  return runs_through(wall, skin, beyond, edge.outward(at));
+  return runs_through(wall, beyond, edge.outward(at));
 }
 
 /// The walls that begin close by: at several depths at one place, as where a sheet leaves the one it lies on,
 /// and beside each other; otherwise the first one farther away. Empty if there is none.
-std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& walls, int wall,
-                                 const FaceEdge& edge) {
+std::vector<NextWall> next_walls(const std::vector<Wall>& walls, int wall, const FaceEdge& edge) {
   const double t = walls[wall].thickness;
   const bool corner = edge.in_corner();
   std::vector<NextWall> result;
@@ -205,8 +200,7 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
         const double at = edge.at(share);
         for (int other = 0; other < static_cast<int>(walls.size()); ++other) {
           const NextWall next{other, away * t, depth * t, at};
-          if (other == wall || is_known(other) || !begins_behind(skin, walls[other], edge, at, next))
-            continue;
+          if (other == wall || is_known(other) || !begins_behind(walls[other], edge, at, next)) continue;
           result.push_back(next);
           if (away > close_by) return result;
         }
@@ -219,18 +213,17 @@ std::vector<NextWall> next_walls(const Skin& skin, const std::vector<Wall>& wall
 /// The depth of a wall's middle below the edge at a parameter, a little before the edge (`step` negative) or
 /// behind it. \param t thickness of the edge's wall. \param guess of the depth, which is returned if the wall
 /// is at none of the depths that are searched.
-double depth_at(const Skin& skin, const Wall& wall, const FaceEdge& edge, double at, double step, double t,
-                double guess) {
+double depth_at(const Wall& wall, const FaceEdge& edge, double at, double step, double t, double guess) {
   const gp_Pnt start = edge.curve().Value(at).Translated(step * edge.away(at));
   const auto is_in = [&](double depth) {
-    return position_in(wall, skin, start.Translated(-depth * gp_Vec(edge.outward(at)))).has_value();
+    return position_in(wall, start.Translated(-depth * gp_Vec(edge.outward(at)))).has_value();
   };
   double depth = guess;
   for (std::size_t i = 0; i < searched_depths.size() && !is_in(depth); ++i) depth = searched_depths[i] * t;
   if (!is_in(depth)) return guess;
   for (int i = 0; i < 4; ++i) {  // if the sides are not parallel their middle lies a little aside
     const gp_Pnt point = start.Translated(-depth * gp_Vec(edge.outward(at)));
-    const auto position = position_in(wall, skin, point);
+    const auto position = position_in(wall, point);
     if (!position) break;
     const gp_Pnt middle(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ()));
     depth -= gp_Vec(point, middle).Dot(gp_Vec(edge.outward(at)));
@@ -252,7 +245,7 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
     double depth = 0, slope = 0;
   };
   const auto line_of = [&](const Wall& of, double aside, double depth) -> std::optional<Line> {
-    const auto position = position_in(of, skin, start.Translated(aside * away + depth * down));
+    const auto position = position_in(of, start.Translated(aside * away + depth * down));
     if (!position || position->thickness() < Precision::Confusion()) return std::nullopt;
     const gp_Vec across(position->feet[0], position->feet[1]);
     const gp_Vec to(start, gp_Pnt(0.5 * (position->feet[0].XYZ() + position->feet[1].XYZ())));
@@ -278,29 +271,29 @@ bool meet_in_corner(const Skin& skin, const std::vector<Wall>& walls, int wall, 
   if (std::abs(meet) < 0.5 * t) return true;
   const gp_Pnt corner = start.Translated(meet * away + (own->depth + own->slope * meet) * down);
   return planes && std::abs(meet) < 8 * own_thickness && skin.in_material(corner) &&
-         !position_in(walls[wall], skin, corner) && !position_in(walls[next.wall], skin, corner);
+         !position_in(walls[wall], corner) && !position_in(walls[next.wall], corner);
 }
 
 /// \param beside all walls that begin at the edge. At a step the fence reaches from the first to the last of
 /// their middles: fences that lie on each other in part would cut each other.
-WallEnd make_end(const Skin& skin, const std::vector<Wall>& walls, int wall, const NextWall& next,
-                 const FaceEdge& edge, const std::vector<NextWall>& beside) {
+WallEnd make_end(const std::vector<Wall>& walls, int wall, const NextWall& next, const FaceEdge& edge,
+                 const std::vector<NextWall>& beside) {
   const double t = walls[wall].thickness;
   const double step_over = next.away > close_by * t ? next.away : 1e-3 * t;
   bool step = false;
-  double high = skin.size(), low = 0;  // the depths between which both middles lie all along the edge
+  double high = HUGE_VAL, low = 0;  // the depths between which both middles lie all along the edge
   for (const double share : {0.5, 0.1, 0.9}) {
     // Behind the middle of the edge there may be another wall, beside this one.
     const bool elsewhere = share == 0.5 && edge.first() < next.at && next.at < edge.last();
     const double at = elsewhere ? next.at : edge.at(share);
-    const double own = depth_at(skin, walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
-    const double other = depth_at(skin, walls[next.wall], edge, at, step_over, t, next.depth);
+    const double own = depth_at(walls[wall], edge, at, -1e-3 * t, t, 0.5 * t);
+    const double other = depth_at(walls[next.wall], edge, at, step_over, t, next.depth);
     if (share == 0.5) step = std::abs(own - other) > 1e-2 * t;
     high = std::min({high, own, other});
     low = std::max({low, own, other});
     if (!step) break;
     for (const NextWall& also : beside) {
-      const double depth = depth_at(skin, walls[also.wall], edge, at, step_over, t, also.depth);
+      const double depth = depth_at(walls[also.wall], edge, at, step_over, t, also.depth);
       high = std::min(high, depth);
       low = std::max(low, depth);
     }
@@ -324,9 +317,9 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
   const auto at = [&](double i) { return first + length * (i + 0.5) / count; };
   // At any of the depths that are searched: the floor behind an edge may lean.
   const auto begins = [&](double t) {
-    return begins_behind(skin, wall, edge, t, next) ||
+    return begins_behind(wall, edge, t, next) ||
            std::any_of(searched_depths.begin(), searched_depths.end(), [&](double depth) {
-             return begins_behind(skin, wall, edge, t, {next.wall, next.away, depth * thickness, t});
+             return begins_behind(wall, edge, t, {next.wall, next.away, depth * thickness, t});
            });
   };
   const auto is_material = [&](double t) {
@@ -346,7 +339,7 @@ std::vector<FaceEdge> stretches_along(const Skin& skin, const Wall& wall, const 
     const bool line = edge.curve().GetType() == GeomAbs_Line;
     if (!line && from == end) return from;
     const double ahead = std::copysign(0.1 * thickness, end - first - 0.5 * length);
-    const double depth = depth_at(skin, wall, edge, from, next.away, thickness, next.depth);
+    const double depth = depth_at(wall, edge, from, next.away, thickness, next.depth);
     const auto behind = [&](double t) { return edge.inside(t, depth).Translated(next.away * edge.away(t)); };
     const auto hit = skin.first_hit(behind(from), gp_Dir(gp_Vec(behind(from), behind(from + ahead))));
     const gp_Vec back = -close_by * thickness * edge.away(from);
@@ -465,23 +458,20 @@ class RimEnds {
   /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
   void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
            std::vector<WallEnd>& ends) {
-    std::map<const FaceEdge*, bool> known;
-    // Whether the wall's middle continues past the edge inside the material.
-    const auto goes_on = [&](const FaceEdge& edge) {
-      const auto [entry, is_new] = known.try_emplace(&edge, false);
-      const double at = 0.5 * (edge.first() + edge.last());
-      if (is_new)
-        entry->second = skin_.in_material(edge.inside(at, 0.5 * t).Translated(0.05 * t * edge.away(at)));
-      return entry->second;
-    };
+    std::set<const FaceEdge*> going_on;  // past them the wall's middle continues inside the material
     for (const FaceEdge& edge : edges) {
-      if (edge.closed() || !goes_on(edge)) continue;
+      const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
+      if (!edge.closed() && skin_.in_material(middle.Translated(0.05 * t * edge.away(edge.middle()))))
+        going_on.insert(&edge);
+    }
+    for (const FaceEdge& edge : edges) {
+      if (going_on.count(&edge) == 0) continue;
       for (const double at : {edge.first(), edge.last()}) {
         const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
         const auto own = std::find_if(around.begin(), around.end(),
                                       [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
         const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
-          return end.edge != &edge && !goes_on(*end.edge);
+          return end.edge != &edge && going_on.count(end.edge) == 0;
         });
         if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
         const gp_Pnt center = edge.inside(at, 0.5 * t);
@@ -505,7 +495,7 @@ class RimEnds {
     const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
       const double at = edge.at(share);
       const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
-      const auto position = position_in(wall, skin_, above);
+      const auto position = position_in(wall, above);
       if (!position) return std::nullopt;
       return position->feet[0].Distance(above) / position->thickness() - 0.5;
     };
@@ -586,7 +576,7 @@ int fence_along(const std::vector<WallEnd>& ends, int wall, int next, const Face
 
 /// Moves a fence half way toward the edge on the other side of the wall.
 void move_between(TopoDS_Face& fence, const FaceEdge& edge, double thickness) {
-  const auto way = way_from(fence, edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * thickness));
+  const auto way = way_from(fence, edge.inside(edge.middle(), 0.5 * thickness));
   if (!way || way->Magnitude() < Precision::Confusion()) return;
   gp_Trsf half;
   half.SetTranslation(0.5 * *way);
@@ -602,8 +592,9 @@ class WallEnds {
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
+    ++open_[{wall, skin_.index_of(edge.beside().face())}];
     std::map<double, std::vector<NextWall>> nexts;  // by place
-    for (const NextWall& next : next_walls(skin_, walls_, wall, edge)) nexts[next.at].push_back(next);
+    for (const NextWall& next : next_walls(walls_, wall, edge)) nexts[next.at].push_back(next);
     for (const auto& [at, here] : nexts) {
       // Only at a step there may be others above or below the next wall.
       for (const NextWall& next : here)
@@ -612,23 +603,9 @@ class WallEnds {
   }
 
   /// Forgets the risers along which fences do not stand everywhere.
-  void keep_whole_risers(const std::vector<int>& surfaces) {
-    std::map<std::pair<int, int>, int> open;  // by wall and riser: edges between them without a fence
-    for (const WallEnd& end : ends_) {
-      if (end.riser >= 0) --open[{end.wall, end.riser}];
-    }
-    std::set<int> walls;
-    for (const auto& [key, count] : open) walls.insert(key.first);
-    for (const int wall : walls) {
-      for (const int index : both_sides(walls_[wall])) {
-        for (const FaceEdge& edge : borders_of(skin_.faces()[index], skin_, surfaces)) {
-          const auto entry = open.find({wall, skin_.index_of(edge.beside().face())});
-          if (entry != open.end()) ++entry->second;
-        }
-      }
-    }
+  void keep_whole_risers() {
     for (WallEnd& end : ends_) {
-      if (end.riser >= 0 && open[{end.wall, end.riser}] > 0) end.riser = -1;
+      if (end.riser >= 0 && open_[{end.wall, end.riser}] > 0) end.riser = -1;
     }
   }
 
@@ -639,7 +616,7 @@ class WallEnds {
       const Wall& next = walls_[thinner.next.wall];
       for (const FaceEdge& part :
            stretches_along(skin_, next, thinner.edge, thinner.next, walls_[thinner.wall].thickness))
-        push(make_end(skin_, walls_, thinner.wall, thinner.next, part, {}), false, between);
+        push(make_end(walls_, thinner.wall, thinner.next, part, {}), false, between);
     }
   }
 
@@ -657,16 +634,18 @@ class WallEnds {
     if (riser && !stands_on(walls_, wall, next.wall)) return false;
     if (meet_in_corner(skin_, walls_, wall, next, edge)) return false;
     if (stands_already(wall, next.wall, side, edge)) return false;
-    const gp_Pnt middle = edge.inside(0.5 * (edge.first() + edge.last()), 0.5 * t);
+    const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
     if (is_near(middle, 0.01 * t, middles_[{wall, next.wall}])) return false;
-    const WallEnd end = make_end(skin_, walls_, wall, next, edge, {});
+    const WallEnd end = make_end(walls_, wall, next, edge, {});
     if (!end.step) {
       push(end, riser, side);
     } else if (stands_on(walls_, wall, next.wall)) {
       for (const FaceEdge& part : stretches_along(skin_, walls_[next.wall], edge, next, t)) {
-        WallEnd stretch = make_end(skin_, walls_, wall, next, part, beside);
-        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first()))
+        WallEnd stretch = make_end(walls_, wall, next, part, beside);
+        if (part.last() - part.first() > 0.999999 * (edge.last() - edge.first())) {
           stretch.riser = skin_.index_of(edge.beside().face());
+          --open_[{wall, stretch.riser}];
+        }
         push(stretch, true, between);
       }
     } else {
@@ -690,8 +669,7 @@ class WallEnds {
     for (const double share : {0.5, 0.05, 0.95}) {
       const FaceEdge& edge = thinner.edge;
       const double at = edge.at(share);
-      const gp_Pnt middle =
-          edge.inside(at, depth_at(skin_, walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
+      const gp_Pnt middle = edge.inside(at, depth_at(walls_[thinner.wall], edge, at, -1e-3 * t, t, 0.5 * t));
       const bool stands = std::any_of(ends_.begin(), ends_.end(), [&](const WallEnd& end) {
         if (end.wall != thinner.wall || end.next != thinner.next.wall || !end.step) return false;
         const auto way = way_from(end.fence, middle);
@@ -732,28 +710,18 @@ class WallEnds {
   const std::vector<Wall>& walls_;
   /// For each wall and the next one, points on its middle at edges with fences.
   std::map<std::pair<int, int>, std::vector<gp_Pnt>> middles_;
+  std::map<std::pair<int, int>, int> open_;  ///< by wall and riser: edges between them without a fence
   std::vector<WallEnd> ends_;
   std::vector<int> sides_;  ///< see push()
   std::vector<Thinner> thinner_;
 };
 
-/// (faces of the skin) the wall that each is a side of; -1 = none.
-std::vector<int> walls_of_faces(const Skin& skin, const std::vector<Wall>& walls) {
-  std::vector<int> result(skin.faces().size(), -1);
-  for (std::size_t wall = walls.size(); wall-- > 0;) {
-    for (const auto& side : walls[wall].sides) {
-      for (const int face : side) result[face] = static_cast<int>(wall);
-    }
-  }
-  return result;
-}
-
 /// The angle between the normals of `face` and `beside` at the edge, if `beside` rises from the face away
 /// from the material: tangent to it (0) or at an obtuse angle.
 std::optional<double> turn_of_fillet(const FaceEdge& edge, const SkinFace& face, const SkinFace& beside) {
   constexpr double tangent = 5 * M_PI / 180, steepest = 85 * M_PI / 180;
-  const gp_Pnt at = edge.curve().Value(0.5 * (edge.first() + edge.last()));
-  const auto own = face.outward(face.closest(at)), other = beside.outward(beside.closest(at));
+  const gp_Pnt at = edge.curve().Value(edge.middle());
+  const auto own = face.outward_at(at), other = beside.outward_at(at);
   if (!own || !other) return std::nullopt;
   const double turn = own->Angle(*other);
   if (turn > steepest || (turn > tangent && !edge.in_corner())) return std::nullopt;
@@ -774,31 +742,22 @@ bool stands_on(const std::vector<Wall>& walls, int wall, int next) {
 std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
                                                              const std::vector<Wall>& walls) {
   std::map<int, std::vector<FilletBorder>> result;
-  const std::vector<int> wall_of = walls_of_faces(skin, walls);
+  const std::vector<int> wall_of = walls_of_faces(walls);
   for (std::size_t index = 0; index < skin.faces().size(); ++index) {
     const int wall = wall_of[index];
     const SkinFace& face = skin.faces()[index];
     if (wall < 0) continue;
-    for (const TopoDS_Edge& border : edges_of(face.face())) {
-      for (const TopoDS_Shape& next : skin.faces_of(border)) {
-        const int fillet = skin.index_of(next);
-        const SkinFace& beside = skin.faces()[fillet];
-        if (wall_of[fillet] >= 0) continue;
-        const FaceEdge edge(face, beside, border);
-        const auto turn = turn_of_fillet(edge, face, beside);
-        if (!turn) continue;
-        const double t = walls[wall].thickness;
-        const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
-        const gp_Dir outward = edge.outward(0.5 * (edge.first() + edge.last()));
-        result[fillet].push_back({wall, fence, outward, *turn, length_of(border)});
-      }
+    for (const auto& [border, fillet] : skin.neighbors(face)) {
+      const SkinFace& beside = skin.faces()[fillet];
+      if (wall_of[fillet] >= 0) continue;
+      const FaceEdge edge(face, beside, border);
+      const auto turn = turn_of_fillet(edge, face, beside);
+      if (!turn) continue;
+      const double t = walls[wall].thickness;
+      const TopoDS_Face fence = face_between(moved(edge, 0.3 * t, 0), moved(edge, 0.7 * t, 0));
+      result[fillet].push_back({wall, fence, edge.outward(edge.middle()), *turn, length_of(border)});
     }
   }
-  std::erase_if(result, [](const auto& fillet) {
-    const std::vector<FilletBorder>& borders = fillet.second;
-    return std::all_of(borders.begin(), borders.end(),
-                       [&](const FilletBorder& border) { return border.wall == borders.front().wall; });
-  });
   return result;
 }
 
@@ -817,7 +776,7 @@ std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& w
     }
   }
   ends.add_thinner();
-  ends.keep_whole_risers(surfaces);
+  ends.keep_whole_risers();
   return ends.found();
 }
 

@@ -26,20 +26,12 @@ namespace {
 /// The faces that a wall's middle surface may have to cover: its sides, and adjacent faces that belong to no
 /// wall, such as fillets.
 std::vector<int> faces_to_cover(const Skin& skin, const std::vector<Wall>& walls, int wall) {
-  std::set<int> in_walls, result;
-  for (const Wall& other : walls) {
-    for (const auto& side : other.sides) in_walls.insert(side.begin(), side.end());
-  }
-  for (const auto& side : walls[wall].sides) {
-    for (const int face : side) {
-      result.insert(face);
-      for (TopExp_Explorer it(skin.faces()[face].face(), TopAbs_EDGE); it.More(); it.Next()) {
-        for (const TopoDS_Shape& neighbor : skin.faces_of(it.Current())) {
-          const int index = skin.index_of(neighbor);
-          if (in_walls.count(index) == 0) result.insert(index);
-        }
-      }
-    }
+  const std::vector<int> wall_of = walls_of_faces(walls);
+  std::set<int> result;
+  for (const int face : both_sides(walls[wall])) {
+    result.insert(face);
+    for (const auto& [edge, neighbor] : skin.neighbors(skin.faces()[face]))
+      if (wall_of[neighbor] < 0) result.insert(neighbor);
   }
   return {result.begin(), result.end()};
 }
@@ -61,14 +53,14 @@ void keep_regular(const GeomAdaptor_Surface& surface, ParameterRange& v) {
 
 /// The wall's middle. A sphere is turned so that its seam and poles are away from the wall's sides if these
 /// are less than half a sphere: near seam and poles OpenCASCADE loses parts.
-Handle(Geom_Surface) turned_away(const Skin& skin, const Wall& wall) {
+Handle(Geom_Surface) turned_away(const Wall& wall) {
   const auto sphere = Handle(Geom_SphericalSurface)::DownCast(wall.middle);
   if (sphere.IsNull()) return wall.middle;
   const gp_Pnt center = sphere->Location();
   gp_Vec middle;
   double area = 0;
   for (const int face : both_sides(wall)) {
-    for (const FaceSample& sample : skin.faces()[face].samples(24)) {
+    for (const FaceSample& sample : wall.face(face).samples(24)) {
       middle += sample.area * gp_Vec(center, sample.point).Normalized();
       area += sample.area;
     }
@@ -88,7 +80,7 @@ TopoDS_Face middle_patch(const Skin& skin, const std::vector<Wall>& walls, int w
   for (const Wall& other : walls) margin = std::max(margin, 1.5 * other.thickness);
   if (walls[wall].ends) return BRepBuilderAPI_MakeFace(walls[wall].middle, Precision::Confusion()).Face();
   const auto points = points_on_edges(skin, faces_to_cover(skin, walls, wall));
-  const Handle(Geom_Surface) middle = turned_away(skin, walls[wall]);
+  const Handle(Geom_Surface) middle = turned_away(walls[wall]);
   const gp_Pnt2d uv = ShapeAnalysis_Surface(middle).ValueOfUV(points.front(), Precision::Confusion());
   gp_Pnt at;
   gp_Vec du, dv;
@@ -134,34 +126,14 @@ std::vector<TopoDS_Shape> near_faces(const Skin& skin, const std::set<int>& left
 }
 
 /// Adds the corners to the thickness range: there a varying thickness has its extremes, outside the samples.
-void widen_to_corners(const TopoDS_Face& face, const Wall& wall, const Skin& skin, Coverage& coverage) {
+void widen_to_corners(const TopoDS_Face& face, const Wall& wall, Coverage& coverage) {
   for (TopExp_Explorer it(face, TopAbs_VERTEX); it.More(); it.Next()) {
     const gp_Pnt corner = BRep_Tool::Pnt(TopoDS::Vertex(it.Current()));
-    if (wall.fitted && !position_in(wall, skin, corner)) continue;
-    const double t = thickness_round(wall, skin, corner);
+    if (wall.fitted && !position_in(wall, corner)) continue;
+    const double t = thickness_round(wall, corner);
     coverage.thinnest = std::min(coverage.thinnest, t);
     coverage.thickest = std::max(coverage.thickest, t);
   }
-}
-
-/// The thickness over a face, at the samples where there is one. \param thickness_at of a sample's place
-template <class ThicknessAt>
-Coverage measured(const TopoDS_Face& face, const Wall& wall, const Skin& skin, ThicknessAt&& thickness_at) {
-  Coverage result;
-  double area = 0, covered = 0;
-  for (const FaceSample& sample : sample_face(face, 16)) {
-    area += sample.area;
-    const std::optional<double> t = thickness_at(sample.point, result);
-    if (!t) continue;
-    result.thinnest = covered > 0 ? std::min(result.thinnest, *t) : *t;
-    result.thickest = std::max(result.thickest, *t);
-    result.mean += *t * sample.area;
-    covered += sample.area;
-  }
-  if (covered > 0) result.mean /= covered;
-  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, skin, result);
-  result.share = area > 0 ? covered / area : 0;
-  return result;
 }
 
 /// The pieces into which others cut a face; the face if they do not meet it, none if OpenCASCADE fails.
@@ -178,19 +150,6 @@ std::vector<TopoDS_Face> cut_by(const TopoDS_Face& face, const std::vector<TopoD
   return result;
 }
 
-/// The pieces that lie, at least in part, between the sides of the wall.
-std::vector<TopoDS_Face> between_sides(const std::vector<TopoDS_Face>& pieces, const Wall& wall,
-                                       const Skin& skin, const ExecutionContext& context) {
-  constexpr double least_share = 0.02;
-  std::vector<TopoDS_Face> result;
-  for (const TopoDS_Face& piece : pieces) {
-    context.check();
-    triangulate_middle(piece, wall.thickness);
-    if (coverage_of(piece, wall, skin).share > least_share) result.push_back(piece);
-  }
-  return result;
-}
-
 }  // namespace
 
 void triangulate_middle(const TopoDS_Face& face, double thickness) {
@@ -200,31 +159,36 @@ void triangulate_middle(const TopoDS_Face& face, double thickness) {
   triangulate(face, std::min(0.2 * thickness, width > 0 ? 0.1 * width : thickness), turn);
 }
 
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
-  return measured(face, wall, skin, [&](const gp_Pnt& point, Coverage& so_far) -> std::optional<double> {
-    const auto position = position_in(wall, skin, point);
-    if (!position) return std::nullopt;
-    so_far.faces.insert(position->faces.begin(), position->faces.end());
-    return position->thickness();
-  });
-}
-
-double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point) {
-  if (coverage.thickest <= coverage.thinnest) return coverage.mean;
-  const double t = thickness_round(wall, skin, point) + coverage.added;
-  return std::clamp(t, coverage.thinnest, coverage.thickest);
-}
-
-Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin) {
-  Coverage result = measured(face, wall, skin, [&](const gp_Pnt& point, const Coverage&) {
-    return std::optional(thickness_round(wall, skin, point));
-  });
-  result.share = 0;  // none of it lies between both sides
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, bool past_sides) {
+  triangulate_middle(face, wall.thickness);
+  Coverage result;
+  double area = 0, covered = 0;
+  for (const FaceSample& sample : sample_face(face, 16)) {
+    area += sample.area;
+    const auto position = past_sides ? std::nullopt : position_in(wall, sample.point);
+    if (!past_sides && !position) continue;
+    const double t = position ? position->thickness() : thickness_round(wall, sample.point);
+    if (position) result.faces.insert(position->faces.begin(), position->faces.end());
+    result.thinnest = covered > 0 ? std::min(result.thinnest, t) : t;
+    result.thickest = std::max(result.thickest, t);
+    result.mean += t * sample.area;
+    covered += sample.area;
+  }
+  if (covered > 0) result.mean /= covered;
+  if (result.thickest > (1 + 1e-4) * result.thinnest) widen_to_corners(face, wall, result);
+  if (area > 0 && !past_sides) result.share = covered / area;
   return result;
+}
+
+double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& point) {
+  if (coverage.thickest <= coverage.thinnest) return coverage.mean;
+  const double t = thickness_round(wall, point) + coverage.added;
+  return std::clamp(t, coverage.thinnest, coverage.thickest);
 }
 
 std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& walls, int wall,
                                      const std::vector<WallEnd>& ends, const ExecutionContext& context) {
+  constexpr double least_share = 0.02;
   std::vector<TopoDS_Shape> fences;
   for (const WallEnd& end : ends) {
     if (end.wall == wall) fences.push_back(end.fence);
@@ -233,9 +197,10 @@ std::vector<TopoDS_Face> wall_pieces(const Skin& skin, const std::vector<Wall>& 
   std::vector<TopoDS_Face> result;
   const std::set<int> never_met = left_out(walls, wall, ends);
   for (const TopoDS_Face& part : cut_by(middle_patch(skin, walls, wall), fences, context)) {
-    const auto pieces = cut_by(part, near_faces(skin, never_met, part), context);
-    for (const TopoDS_Face& piece : between_sides(pieces, walls[wall], skin, context))
-      result.push_back(piece);
+    for (const TopoDS_Face& piece : cut_by(part, near_faces(skin, never_met, part), context)) {
+      context.check();
+      if (coverage_of(piece, walls[wall]).share > least_share) result.push_back(piece);
+    }
   }
   return result;
 }

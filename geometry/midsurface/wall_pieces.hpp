@@ -31,18 +31,15 @@ struct Coverage {
   double added = 0;  ///< what fillets add to the distance between the sides; contained in the three above
 };
 
-/// Triangulates a middle face for coverage_of(): finely enough for its thickness and its width.
+/// Triangulates a middle face for samples: finely enough for its thickness and its width.
 void triangulate_middle(const TopoDS_Face& face, double thickness);
 
-/// \param face with triangles.
-Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
-
-/// How thick the wall would be at a middle face where its sides do not reach, as beside a corner with a
-/// fillet: the distance between their surfaces. \param face with triangles.
-Coverage coverage_past_sides(const TopoDS_Face& face, const Wall& wall, const Skin& skin);
+/// Triangulates a middle face and looks where it lies. \param past_sides how thick the wall would be where
+/// its sides do not reach, as beside a corner with a fillet, by the distance between their surfaces.
+Coverage coverage_of(const TopoDS_Face& face, const Wall& wall, bool past_sides = false);
 
 /// The thickness of a middle face at a point, with what fillets add, within the range of its coverage.
-double thickness_at(const Coverage& coverage, const Wall& wall, const Skin& skin, const gp_Pnt& point);
+double thickness_at(const Coverage& coverage, const Wall& wall, const gp_Pnt& point);
 
 /// All ends of all walls. A step has two ends; the fence of only one of them joins the walls.
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,

@@ -26,10 +26,12 @@ constexpr int samples_a_face = 24;
 const double most_slope = std::cos(30 * M_PI / 180);  // cosine of the largest angle between sides
 constexpr double least_share = 0.1;                   // share of the smaller face that must be paired
 
-/// How large a part of each of two faces faces the other.
+/// How large a part of each of two faces or surfaces faces the other.
 struct Facing {
   std::array<double, 2> areas{0, 0};  ///< area of the samples on each face that meet the other
   double thickness_area = 0;          ///< sum of thickness times area over these samples
+  double area() const { return areas[0] + areas[1]; }
+  double thickness() const { return thickness_area / area(); }
 };
 using Facings = std::map<std::pair<int, int>, Facing>;
 
@@ -83,10 +85,8 @@ void add_once(std::vector<int>& list, int value) {
 struct SurfacePair {
   std::array<int, 2> surfaces{};
   std::array<std::vector<int>, 2> faces;
-  Handle(Geom_Surface) middle;        ///< null if there is no exact one
-  std::array<double, 2> areas{0, 0};  ///< area of the samples on each surface that meet the other
-  double thickness_area = 0;          ///< sum of thickness times area over these samples
-  double area() const { return areas[0] + areas[1]; }
+  Handle(Geom_Surface) middle;  ///< null if there is no exact one
+  Facing facing{};
 };
 
 std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>& surfaces,
@@ -105,8 +105,8 @@ std::vector<SurfacePair> pair_surfaces(const Skin& skin, const std::vector<int>&
     const bool ordered = surfaces[faces.first] == key.first;
     add_once(pair.faces[0], ordered ? faces.first : faces.second);
     add_once(pair.faces[1], ordered ? faces.second : faces.first);
-    pair.thickness_area += facing.thickness_area;
-    for (int side = 0; side < 2; ++side) pair.areas[side] += facing.areas[ordered ? side : 1 - side];
+    pair.facing.thickness_area += facing.thickness_area;
+    for (int side = 0; side < 2; ++side) pair.facing.areas[side] += facing.areas[ordered ? side : 1 - side];
   }
   return result;
 }
@@ -119,7 +119,7 @@ void drop_junctions(const Skin& skin, std::vector<SurfacePair>& pairs) {
   for (const SurfacePair& pair : pairs) {
     for (int side = 0; side < 2; ++side) {
       double& area = most[pair.surfaces[side]];
-      area = std::max(area, pair.areas[side]);
+      area = std::max(area, pair.facing.areas[side]);
     }
   }
   std::erase_if(pairs, [&](const SurfacePair& pair) {
@@ -127,7 +127,7 @@ void drop_junctions(const Skin& skin, std::vector<SurfacePair>& pairs) {
     const BRepAdaptor_Surface& b = skin.faces()[pair.faces[1].front()].surface();
     return a.GetType() == GeomAbs_Plane && b.GetType() == GeomAbs_Plane &&
            std::abs(a.Plane().Axis().Direction().Dot(b.Plane().Axis().Direction())) < leaning &&
-           pair.areas[0] < most[pair.surfaces[0]] && pair.areas[1] < most[pair.surfaces[1]];
+           pair.facing.areas[0] < most[pair.surfaces[0]] && pair.facing.areas[1] < most[pair.surfaces[1]];
   });
 }
 
@@ -164,45 +164,40 @@ std::vector<std::size_t> pairs_around(const std::vector<SurfacePair>& pairs, std
   return result;
 }
 
-double area_of(const Skin& skin, const std::vector<int>& faces) {
-  double area = 0;
-  for (const int face : faces) area += skin.faces()[face].area();
-  return area;
-}
-
 /// The wall formed by pairs that share the surface `center`. Nothing if neither side is paired over three
 /// quarters: a fillet at a junction faces the walls at its two ends, and between them the junction's inside.
 std::optional<Wall> wall_of(const Skin& skin, const std::vector<SurfacePair>& pairs, int center) {
   constexpr double least_covered = 0.75;
-  Wall wall;
+  Wall wall{&skin};
   std::array<double, 2> covered{0, 0};
   for (const SurfacePair& pair : pairs) {
     const int first = pair.surfaces[0] == center ? 0 : 1;
     for (int side = 0; side < 2; ++side) {
       const int from = side == 0 ? first : 1 - first;
       for (const int face : pair.faces[from]) add_once(wall.sides[side], face);
-      covered[side] += pair.areas[from];
+      covered[side] += pair.facing.areas[from];
     }
-    wall.thickness += pair.thickness_area;
+    wall.thickness += pair.facing.thickness_area;
   }
   wall.thickness /= covered[0] + covered[1];
   for (int side = 0; side < 2; ++side) {
-    if (covered[side] > least_covered * area_of(skin, wall.sides[side])) return wall;
+    double area = 0;
+    for (const int face : wall.sides[side]) area += wall.face(face).area();
+    if (covered[side] > least_covered * area) return wall;
   }
   return std::nullopt;
 }
 
 /// Whether the wall has two flat faces, as the corners of flat walls do.
-bool has_two_flats(const Skin& skin, const Wall& wall) {
+bool has_two_flats(const Wall& wall) {
   const std::vector<int> faces = both_sides(wall);
-  return std::count_if(faces.begin(), faces.end(), [&](int index) {
-           return skin.faces()[index].surface().GetType() == GeomAbs_Plane;
-         }) > 1;
+  return std::count_if(faces.begin(), faces.end(),
+                       [&](int face) { return wall.face(face).surface().GetType() == GeomAbs_Plane; }) > 1;
 }
 
 /// Whether a fitted middle is bent more tightly than half its thickness. No shell can be bent like that: its
 /// skin inside the bend would turn over. Where both radii of a bend are equal, its middle is nearly a corner.
-bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_Surface) & middle) {
+bool is_bent_too_tightly(const Wall& wall, const Handle(Geom_Surface) & middle) {
   constexpr double max_bend = 0.9;  // half the thickness over the radius
   const GeomAdaptor_Surface surface(middle);
   TColStd_Array1OfReal us(1, surface.NbUIntervals(GeomAbs_CN) + 1),
@@ -215,7 +210,7 @@ bool is_bent_too_tightly(const Skin& skin, const Wall& wall, const Handle(Geom_S
     if (!at.IsCurvatureDefined()) return false;
     const double curvature = std::max(std::abs(at.MaxCurvature()), std::abs(at.MinCurvature()));
     if (curvature * wall.thickness < max_bend) return false;  // spares the search where it is nearly flat
-    return 0.5 * curvature * thickness_round(wall, skin, at.Value()) > max_bend;
+    return 0.5 * curvature * thickness_round(wall, at.Value()) > max_bend;
   };
   for (const double share : {0.25, 0.5, 0.75}) {
     const double u = (1 - share) * us.First() + share * us.Last();
@@ -259,7 +254,7 @@ std::vector<std::array<int, 2>> mutual_pairs(const std::vector<SurfacePair>& pai
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (const int surface : pairs[i].surfaces) {
       const auto [entry, is_new] = best.try_emplace(surface, i);
-      if (!is_new && pairs[i].area() > pairs[entry->second].area()) entry->second = i;
+      if (!is_new && pairs[i].facing.area() > pairs[entry->second].facing.area()) entry->second = i;
     }
   }
   std::vector<std::array<int, 2>> result;
@@ -271,11 +266,17 @@ std::vector<std::array<int, 2>> mutual_pairs(const std::vector<SurfacePair>& pai
   return result;
 }
 
+void take_fitted(const NearMiddle& middle, Wall& wall) {
+  wall.middle = middle.surface;
+  wall.fitted = wall.ends = true;
+  wall.off = middle.off;
+}
+
 /// The wall at an index of `chains`, with a fitted middle.
 std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSides>& chains, std::size_t index,
                                  double thickness, double tolerance, double margin) {
   const MatchedSides& own = chains[index];
-  Wall wall;
+  Wall wall{&skin};
   wall.sides = {std::vector<int>{own.faces[0]}, std::vector<int>{own.faces[1]}};
   wall.thickness = thickness;
   auto sides = wall.sides;
@@ -283,9 +284,7 @@ std::optional<Wall> chained_wall(const Skin& skin, const std::vector<MatchedSide
   for (const std::size_t next : own.next) add_once(sides[1], chains[next].faces[1]);
   const auto middle = fit_middle(skin, sides, tolerance * thickness, margin, own.beside);
   if (!middle) return std::nullopt;
-  wall.middle = middle->surface;
-  wall.fitted = wall.ends = true;
-  wall.off = middle->off;
+  take_fitted(*middle, wall);
   return wall;
 }
 
@@ -296,7 +295,7 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
   const std::vector<MatchedSides> chains = matched_sides(skin, mutual_pairs(pairs));
   std::map<std::pair<int, int>, double> thickness;  // by surfaces
   for (const SurfacePair& pair : pairs)
-    thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.thickness_area / pair.area();
+    thickness[std::minmax(pair.surfaces[0], pair.surfaces[1])] = pair.facing.thickness();
   std::set<int> chained;   // surfaces
   std::vector<int> index;  // of each wall of the chains in `walls`; -1 = it cannot be fitted
   for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -319,11 +318,11 @@ void move_chains(const Skin& skin, const std::vector<int>& surfaces, double tole
 
 /// Removes walls that are thicker than wide if the material between their sides lies in a wall with larger
 /// sides: what a pocket leaves of a plate along its rim is plate, not a wall that stands there.
-void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
+void drop_stubs(std::vector<Wall>& walls) {
   const auto size_of = [&](const Wall& wall, auto&& size) {
     std::array<double, 2> sums{0, 0};
     for (int side = 0; side < 2; ++side)
-      for (const int face : wall.sides[side]) sums[side] += size(skin.faces()[face]);
+      for (const int face : wall.sides[side]) sums[side] += size(wall.face(face));
     return std::min(sums[0], sums[1]);
   };
   std::vector<double> areas;
@@ -335,14 +334,14 @@ void drop_stubs(const Skin& skin, std::vector<Wall>& walls) {
     if (size_of(wall, [](const SkinFace& face) { return width_of(face.face()); }) >= wall.thickness)
       return false;
     for (const int face : both_sides(wall)) {
-      for (const FaceSample& sample : skin.faces()[face].samples(samples_a_face)) {
-        const auto outward = skin.faces()[face].outward(sample.uv);
+      for (const FaceSample& sample : wall.face(face).samples(samples_a_face)) {
+        const auto outward = wall.face(face).outward(sample.uv);
         if (!outward) continue;
         const gp_Pnt middle = sample.point.Translated(-0.5 * wall.thickness * gp_Vec(*outward));
-        if (!position_in(wall, skin, middle)) continue;
+        if (!position_in(wall, middle)) continue;
         bool held = false;
         for (std::size_t other = 0; other < walls.size() && !held; ++other)
-          held = areas[other] > areas[own] && position_in(walls[other], skin, middle);
+          held = areas[other] > areas[own] && position_in(walls[other], middle);
         if (!held) return false;
       }
     }
@@ -382,41 +381,39 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
   std::vector<Wall> walls;
   double thickest = 0;
   for (SurfacePair& pair : pairs) {
-    const double thickness = pair.thickness_area / pair.area();
+    const double thickness = pair.facing.thickness();
     thickest = std::max(thickest, thickness);
     NearMiddle middle{pair.middle, 0};
     if (pair.middle.IsNull())
       middle = near_middle_surface(skin.faces()[pair.faces[0].front()], skin.faces()[pair.faces[1].front()],
                                    tolerance * thickness);
     if (middle.surface.IsNull()) continue;
-    walls.push_back({pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
+    walls.push_back({&skin, pair.faces, middle.surface, thickness, pair.middle.IsNull(), false, middle.off});
     pair.middle = middle.surface;
   }
-  drop_stubs(skin, walls);
+  drop_stubs(walls);
   std::erase_if(pairs, [](const SurfacePair& pair) { return !pair.middle.IsNull(); });
   move_chains(skin, surfaces, tolerance, 3 * thickest, context, pairs, walls);
   for (Wall& wall : group_pairs(skin, std::move(pairs), touching_surfaces(skin, surfaces))) {
     context.check();
     const auto middle = fit_middle(skin, wall.sides, tolerance * wall.thickness, 3 * thickest);
     if (!middle) continue;
-    if (has_two_flats(skin, wall) && is_bent_too_tightly(skin, wall, middle->surface)) continue;
-    wall.middle = middle->surface;
-    wall.fitted = wall.ends = true;
-    wall.off = middle->off;
+    if (has_two_flats(wall) && is_bent_too_tightly(wall, middle->surface)) continue;
+    take_fitted(*middle, wall);
     walls.push_back(wall);
   }
   return walls;
 }
 
-std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
+std::optional<WallPosition> position_in(const Wall& wall, const gp_Pnt& point) {
   WallPosition result;
   const Bnd_Box at(point, point);
   const double reach = 2.11 * wall.thickness;  // a foot farther away is rejected below
   for (int side = 0; side < 2; ++side) {
     bool found = false;
     for (const int face : wall.sides[side]) {
-      if (skin.faces()[face].box().Distance(at) > reach) continue;
-      const auto foot = skin.faces()[face].foot(point);
+      if (wall.face(face).box().Distance(at) > reach) continue;
+      const auto foot = wall.face(face).foot(point);
       if (!foot || (found && foot->Distance(point) >= result.feet[side].Distance(point))) continue;
       result.feet[side] = *foot;
       result.faces[side] = face;
@@ -431,16 +428,12 @@ std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, cons
   return result;
 }
 
-double thickness_round(const Wall& wall, const Skin& skin, const gp_Pnt& point) {
-  if (const auto position = position_in(wall, skin, point)) return position->thickness();
+double thickness_round(const Wall& wall, const gp_Pnt& point) {
+  if (const auto position = position_in(wall, point)) return position->thickness();
   double result = 0;
   for (const auto& side : wall.sides) {
-    double nearest = -1;
-    for (const int index : side) {
-      const SkinFace& face = skin.faces()[index];
-      const double distance = face.point(face.closest(point)).Distance(point);
-      if (nearest < 0 || distance < nearest) nearest = distance;
-    }
+    double nearest = HUGE_VAL;
+    for (const int face : side) nearest = std::min(nearest, wall.face(face).distance(point));
     result += nearest;
   }
   return result;
@@ -450,6 +443,13 @@ std::vector<int> both_sides(const Wall& wall) {
   std::vector<int> faces = wall.sides[0];
   faces.insert(faces.end(), wall.sides[1].begin(), wall.sides[1].end());
   return faces;
+}
+
+std::vector<int> walls_of_faces(const std::vector<Wall>& walls) {
+  std::vector<int> result(walls.front().skin->faces().size(), -1);
+  for (int wall = static_cast<int>(walls.size()) - 1; wall >= 0; --wall)
+    for (const int face : both_sides(walls[wall])) result[face] = wall;
+  return result;
 }
 
 }  // namespace quadrille

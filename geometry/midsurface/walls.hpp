@@ -15,13 +15,16 @@ namespace quadrille {
 /// All faces of a solid on one surface and the faces on another surface that lie opposite to them through the
 /// material. If the middle is a B-spline, the second side may consist of several adjacent surfaces.
 struct Wall {
-  std::array<std::vector<int>, 2> sides;  ///< indices into Skin::faces()
-  Handle(Geom_Surface) middle;  ///< every point is equally far from both sides; unbounded unless `ends`
-  double thickness = 0;         ///< mean over the wall
-  bool fitted = false;          ///< the middle is not exact
-  bool ends = false;            ///< the middle is a B-spline, which is bounded
-  double off = 0;               ///< largest distance of a fitted middle from the true one
-  std::vector<int> goes_on{};   ///< indices of the walls with which the middle shares bounds, without a fence
+  const Skin* skin = nullptr;               ///< of the solid
+  std::array<std::vector<int>, 2> sides{};  ///< indices into Skin::faces()
+  Handle(Geom_Surface) middle{};  ///< every point is equally far from both sides; unbounded unless `ends`
+  double thickness = 0;           ///< mean over the wall
+  bool fitted = false;            ///< the middle is not exact
+  bool ends = false;              ///< the middle is a B-spline, which is bounded
+  double off = 0;                 ///< largest distance of a fitted middle from the true one
+  std::vector<int> goes_on{};  ///< indices of the walls with which the middle shares bounds, without a fence
+  /// \param index into Skin::faces().
+  const SkinFace& face(int index) const { return skin->faces()[index]; }
 };
 
 /// The two sides of a wall as seen from a point between them.
@@ -47,12 +50,16 @@ std::vector<Wall> find_walls(const Skin& skin, const std::vector<int>& surfaces,
 
 /// Where the point lies in the wall; nothing if its closest points do not lie in faces of both sides or it is
 /// not between them.
-std::optional<WallPosition> position_in(const Wall& wall, const Skin& skin, const gp_Pnt& point);
+std::optional<WallPosition> position_in(const Wall& wall, const gp_Pnt& point);
 
 /// The distance between the surfaces of the sides near the point, also past the ends of the faces.
-double thickness_round(const Wall& wall, const Skin& skin, const gp_Pnt& point);
+double thickness_round(const Wall& wall, const gp_Pnt& point);
 
 /// All faces of a wall.
 std::vector<int> both_sides(const Wall& wall);
+
+/// For each face of the skin the wall that it is a side of, the first one; -1 = none. \param walls one or
+/// more
+std::vector<int> walls_of_faces(const std::vector<Wall>& walls);
 
 }  // namespace quadrille

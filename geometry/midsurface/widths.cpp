@@ -2,6 +2,7 @@
 
 #include "geometry/midsurface/widths.hpp"
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
@@ -15,6 +16,11 @@ double length_of(const TopoDS_Edge& edge) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(edge, properties);
   return properties.Mass();
+}
+
+gp_Pnt point_at(const TopoDS_Edge& edge, double share) {
+  const BRepAdaptor_Curve curve(edge);
+  return curve.Value((1 - share) * curve.FirstParameter() + share * curve.LastParameter());
 }
 
 double area_of(const TopoDS_Face& face) {

@@ -1,12 +1,16 @@
 #pragma once
-/// Lengths, areas and widths of edges and faces. Internal.
+/// Lengths, areas and widths of edges and faces, and points of edges. Internal.
 
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <gp_Pnt.hxx>
 
 namespace quadrille {
 
 double length_of(const TopoDS_Edge& edge);
+
+/// The point of an edge at a share of its parameters.
+gp_Pnt point_at(const TopoDS_Edge& edge, double share);
 
 double area_of(const TopoDS_Face& face);
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/free_memory.hpp"
+#include "geometry/base/process_usage.hpp"
 #include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/coarse_domain.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/base/vector.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 

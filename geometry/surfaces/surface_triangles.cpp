@@ -19,6 +19,7 @@
 
 #include "geometry/base/side_key.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -214,6 +215,7 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
     // Keep the faces that were triangulated before the failure.
   }
   context.check();
+  const TopTools_IndexedMapOfShape own_edges = map_of(faces, TopAbs_EDGE);
   for (const FaceId id : shape.faces.ids()) {
     if (!used[id]) continue;
     const int first = static_cast<int>(surface.points.size());
@@ -225,7 +227,8 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
     for (const CadWire& wire : shape.faces[id].wires) {
       for (const Coedge& coedge : wire.coedges) {
         const CadEdge& edge = shape.edges[coedge.edge];
-        if (edge.degenerate) continue;
+        // The outlines of faces that were joined may have edges that OpenCASCADE's faces have not.
+        if (edge.degenerate || !own_edges.Contains(coedge.source)) continue;
         // A seam has one polygon for each side, selected by its orientation.
         const TopoDS_Shape copied = copy.ModifiedShape(coedge.source).Oriented(coedge.source.Orientation());
         add_lines(TopoDS::Edge(copied), face, {{-1, -1}, edge.number, id}, first, surface);

@@ -49,7 +49,8 @@ bool deforms(const SolverResult& result) {
   });
 }
 
-/// Sizes that distribute an error evenly, as represented by the field that is written.
+/// Sizes that distribute an error evenly, as represented by the field that is written. The error of stresses
+/// is proportional to the size of elements to the power of their order.
 class SizePlan {
  public:
   SizePlan(const ShellMesh& mesh, const ErrorEstimate& estimate, const AdaptOptions& options,
@@ -115,7 +116,7 @@ class SizePlan {
       Draft draft = of_factor(factor);
       const double step = options_.count > 0
                               ? std::sqrt(draft.count / options_.count)
-                              : std::pow(margin * options_.error / draft.error, 1.0 / order_of(mesh_));
+                              : std::pow(margin * options_.error / draft.error, 1.0 / mesh_.order);
       if (k == most_drafts || std::abs(step - 1) < count_tolerance || !std::isfinite(step)) return draft;
       factor *= step;
     }
@@ -134,14 +135,14 @@ class SizePlan {
     for_places(factor, [&](std::size_t quad, const Vector3& point, double, double share) {
       const double size = size_at(point), ratio = size / now_[quad];
       draft.count += share / (ratio * ratio);
-      square += share * estimate_.squares[quad] * std::pow(ratio, 2 * order_of(mesh_));
+      square += share * estimate_.squares[quad] * std::pow(ratio, 2 * mesh_.order);
       draft.least = std::min(draft.least, size);
       draft.largest = std::max(draft.largest, size);
     });
     // Only half of the gain from distributing the error is relied on (in the logarithm). Some of its
     // unevenness is noise, and near singular stresses smaller elements gain less than their order predicts.
-    const double uniform = estimate_.relative() *
-                           std::pow(static_cast<double>(now_.size()) / draft.count, 0.5 * order_of(mesh_));
+    const double uniform =
+        estimate_.relative() * std::pow(static_cast<double>(now_.size()) / draft.count, 0.5 * mesh_.order);
     draft.error = std::sqrt(std::sqrt(square / (estimate_.all + estimate_.sum())) * uniform);
     return draft;
   }
@@ -182,7 +183,7 @@ class SizePlan {
     double ratio = factor * even_[node] / at_points_[node];
     // At singular stresses the square of a quad's error is at best proportional to the second power of its
     // size. That power is assumed.
-    if (singular_[node] && ratio < 1) ratio = std::pow(ratio, order_of(mesh_) + 1);
+    if (singular_[node] && ratio < 1) ratio = std::pow(ratio, mesh_.order + 1);
     const double size = at_points_[node] * std::clamp(ratio, 1 / max_change, max_change);
     const double largest =
         options_.size_max > 0 ? options_.size_max : std::numeric_limits<double>::infinity();

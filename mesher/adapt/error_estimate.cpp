@@ -136,10 +136,6 @@ ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array
   return estimate;
 }
 
-int order_of(const ShellMesh& mesh) {
-  return mesh.order == 2 ? 2 : 1;
-}
-
 std::vector<double> sizes_of(const ShellMesh& mesh) {
   std::vector<double> sizes;
   for (const auto& quad : mesh.quads) sizes.push_back(std::sqrt(quad_area_vector(mesh.points, quad).norm()));
@@ -148,7 +144,7 @@ std::vector<double> sizes_of(const ShellMesh& mesh) {
 
 std::vector<double> even_sizes(const ShellMesh& mesh, const ErrorEstimate& estimate) {
   // In two dimensions the square of an element's error is proportional to this power of its size.
-  const double power = 2 * order_of(mesh) + 2;
+  const double power = 2 * mesh.order + 2;
   const std::vector<double> now = sizes_of(mesh);
   std::vector<double> errors(mesh.points.size(), 0), powers(mesh.points.size(), 0);
   double all = 0;

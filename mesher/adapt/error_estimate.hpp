@@ -27,9 +27,6 @@ struct ErrorEstimate {
 ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses,
                              double poisson);
 
-/// The order of a mesh's elements. The error of their stresses is proportional to that power of their size.
-int order_of(const ShellMesh& mesh);
-
 /// (quads) The square root of each quad's area.
 std::vector<double> sizes_of(const ShellMesh& mesh);
 

@@ -96,9 +96,8 @@ class PeakFinder {
     for (const Side corner : corners_[node]) {
       const auto& quad = mesh_.quads[element_of(corner)];
       const int k = index_of(corner), next = quad[(k + 1) % 4], before = quad[(k + 3) % 4];
-      const Vector3 a = mesh_.points[next] - mesh_.points[node],
-                    b = mesh_.points[before] - mesh_.points[node];
-      angle += std::atan2(a.cross(b).norm(), a.dot(b));
+      angle +=
+          angle_between(mesh_.points[next] - mesh_.points[node], mesh_.points[before] - mesh_.points[node]);
       ++sides[next];
       ++sides[before];
     }

@@ -90,20 +90,14 @@ class Brick {
   int n_;
 };
 
-Vector3 center_of(const ShellMesh& mesh, int quad) {
-  Vector3 sum = Vector3::Zero();
-  for (const int node : mesh.quads[quad]) sum += mesh.points[node];
-  return sum / 4;
-}
-
 /// Whether a brick lies at a quad, whichever corner comes first. The tolerance allows for section offsets.
 bool belongs(const ShellMesh& mesh, int quad, const Brick& brick) {
-  Vector3 center = Vector3::Zero();
-  for (int k = 0; k < 4; ++k) center += brick.corner(k) / 4;
+  Vector3 apart = Vector3::Zero();  // of the centers
+  for (int k = 0; k < 4; ++k) apart += (brick.corner(k) - mesh.points[mesh.quads[quad][k]]) / 4;
   const double side = (mesh.points[mesh.quads[quad][2]] - mesh.points[mesh.quads[quad][0]]).norm();
   const Eigen::Matrix3d place = brick.derivatives(Vector3::Zero()).place;
   constexpr double share = 0.1;
-  return (center - center_of(mesh, quad)).norm() <= share * side + 1.1 * place.col(2).norm();
+  return apart.norm() <= share * side + 1.1 * place.col(2).norm();
 }
 
 ShellStress stress_at(const Brick& brick, double x, double y, double poisson) {

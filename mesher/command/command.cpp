@@ -10,7 +10,6 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_access.hpp"
-#include "geometry/base/file_ending.hpp"
 #include "geometry/base/isolated_work.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/quadrille.hpp"

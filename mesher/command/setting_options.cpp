@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/text_parts.hpp"
 #include "mesher/io/io.hpp"
 

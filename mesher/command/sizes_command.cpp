@@ -13,7 +13,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/command/command.hpp"

@@ -8,7 +8,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/execution_context.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace quadrille {
 
@@ -51,7 +52,6 @@ class ChordSpacing {
   }
 
   EdgeShares run(const FaceOutlines& sides) {
-    for (const auto& [chord, members] : members_) shares_[chord] = equidistribute(members);
     for (const auto& [chord, members] : members_) prescribe(chord, members);
     for (const FaceSides& face : sides) {
       for (const FacingPair& pair : face.facing) {
@@ -83,7 +83,8 @@ class ChordSpacing {
       if (!holds(edge)) continue;
       shares_[chord] = prescribed_[edge];
       if (chords_.against(edge)) turn_round(shares_[chord]);
-      followed_[chord] = is_prescribed_[chord] = true;
+      followed_.insert(chord);
+      is_prescribed_.insert(chord);
       return;
     }
   }
@@ -122,8 +123,11 @@ class ChordSpacing {
     return shares;
   }
 
-  std::vector<double> shares_of(EdgeId edge) const {
-    std::vector<double> shares = shares_.at(chords_.of(edge));
+  std::vector<double> shares_of(EdgeId edge) {
+    const EdgeId chord = chords_.of(edge);
+    const auto [known, is_new] = shares_.try_emplace(chord);
+    if (is_new) known->second = equidistribute(members_.at(chord));
+    std::vector<double> shares = known->second;
     if (chords_.against(edge)) turn_round(shares);
     return shares;
   }
@@ -148,11 +152,11 @@ class ChordSpacing {
     for (double& share : shares) share /= length;
     if (one[0].forward == chords_.against(edge)) turn_round(shares);
     shares_[chords_.of(edge)] = shares;
-    followed_[chords_.of(edge)] = true;
+    followed_.insert(chords_.of(edge));
   }
 
   /// Whether no segment would be far longer than the edge's own sizes request.
-  bool suits(EdgeId edge) const {
+  bool suits(EdgeId edge) {
     constexpr double most = 2;
     const CountTable& table = tables_[edge];
     const std::vector<double> shares = shares_of(edge);
@@ -170,10 +174,9 @@ class ChordSpacing {
   const IdVector<EdgeId, CountTable>& tables_;
   const IdVector<EdgeId, int>& counts_;
   std::map<EdgeId, std::vector<EdgeId>> members_;  // chord -> edges
-  std::map<EdgeId, std::vector<double>> shares_;   // chord -> shares of its representative
+  std::map<EdgeId, std::vector<double>> shares_;   // chord -> shares of its representative, once needed
   const EdgeShares& prescribed_;
-  std::map<EdgeId, bool> followed_,
-      is_prescribed_;  // chord -> shares from opposite edges or users; from users
+  std::set<EdgeId> followed_, is_prescribed_;  // chords with shares from opposite edges or users; from users
 };
 
 }  // namespace

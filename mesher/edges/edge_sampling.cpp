@@ -2,6 +2,8 @@
 
 #include "mesher/edges/edge_sampling.hpp"
 
+#include <Precision.hxx>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -290,11 +292,27 @@ std::vector<double> shares_with_heads(const CountTable& table, int segments, con
   });
 }
 
-EdgeShares prescribed_shares(const SamplingPlan& plan, const EdgeTables& tables,
+/// Throws Error (usage) if a bias makes segments so short that their ends are one point.
+void check_bias(const CadEdge& edge, const EdgeSpacing& spacing, const std::vector<double>& shares) {
+  double least = 1;
+  for (std::size_t k = 1; k < shares.size(); ++k) least = std::min(least, shares[k] - shares[k - 1]);
+  if (!(least * edge.length < Precision::Confusion())) return;
+  const bool is_both = spacing.bias == 1;
+  const char* name = is_both ? "bias_both" : "bias";
+  throw usage_error(
+      name, fmt::format("`{}` {:g} on Edge{} makes the shortest of its {} segments {:.2g} mm long: "
+                        "use a ratio nearer to 1, or `segments` with a smaller number",
+                        name, is_both ? spacing.bias_both : spacing.bias, edge.number, shares.size() - 1,
+                        least * edge.length));
+}
+
+EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan, const EdgeTables& tables,
                              const IdVector<EdgeId, int>& counts) {
   EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
-    if (plan.prescribes(i) && counts[i] > 0) shares[i] = plan.prescribed[i]->shares_of(counts[i]);
+    if (!plan.prescribes(i) || counts[i] == 0) continue;
+    shares[i] = plan.prescribed[i]->shares_of(counts[i]);
+    check_bias(shape.edges[i], plan.prescribed[i]->spacing, shares[i]);
   }
   for (const auto& [edge, heads] : plan.rows.heads)
     if (counts[edge] > 0) shares[edge] = shares_with_heads(tables[edge], counts[edge], heads);
@@ -314,7 +332,7 @@ Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const Edg
   const auto& [counts, chords] = result.counts;
   PlannedSpacing& spacing = result.spacing;
   spacing.shares = space_chords(shape, sides, chords, demand.tables, counts,
-                                prescribed_shares(plan, demand.tables, counts));
+                                prescribed_shares(shape, plan, demand.tables, counts));
   spacing.divided.resize(counts.size());
   spacing.kept.resize(counts.size());
   for (const EdgeId i : counts.ids()) {

@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/base/vector.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_division.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/base/vector.hpp"
 #include "geometry/base/whole_number.hpp"
 
 namespace quadrille {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/base/vector.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {

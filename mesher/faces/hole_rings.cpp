@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "geometry/base/nearest_on_segment.hpp"
+#include "geometry/base/vector.hpp"
 #include "mesher/faces/loop_rows.hpp"
 
 namespace quadrille {

@@ -15,7 +15,6 @@
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_access.hpp"
-#include "geometry/base/file_ending.hpp"
 #include "geometry/base/printable.hpp"
 #include "geometry/base/threads.hpp"
 #include "mesher/io/modules.hpp"

@@ -13,7 +13,7 @@
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "geometry/base/module_loader.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/cad/readers/exchange_module.hpp"

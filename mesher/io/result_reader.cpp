@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/file_ending.hpp"
+#include "geometry/base/file_access.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/readers.hpp"
 #include "mesher/io/text_cursor.hpp"

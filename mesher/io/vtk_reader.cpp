@@ -12,9 +12,8 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/file_access.hpp"
-#include "geometry/base/file_ending.hpp"
-#include "geometry/base/free_memory.hpp"
 #include "geometry/base/isolated_work.hpp"
+#include "geometry/base/process_usage.hpp"
 #include "geometry/base/text_parts.hpp"
 #include "mesher/io/mesh_builder.hpp"
 #include "mesher/io/modules.hpp"

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "geometry/base/whole_number.hpp"
@@ -23,21 +24,13 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// The measures of one quad that follow from its corners.
-struct Corners {
-  double q = 0;
-  double scaled_jacobian = 0;
-  double jacobian = 0;  ///< least Jacobian at a corner, divided by the mean of the four
-  double warping = 0;   ///< largest angle between a corner's normal and the mean normal
-  double longest = 0, shortest = 0;
-};
-
 /// The side from each corner j to j + 1, the cross products at the corners, and their sum.
 struct Frame {
   std::array<Vector3, 4> sides, crosses;
   std::array<double, 4> lengths;
-  double area = 0;  ///< four times the quad's area
-  Vector3 normal;   ///< unit length; zero for a degenerate quad, without area or with a side of no length
+  double shortest = 0, longest = 0;  ///< of the sides
+  double area = 0;                   ///< four times the quad's area
+  Vector3 normal;  ///< unit length; zero for a degenerate quad, without area or with a side of no length
 
   explicit Frame(const std::array<const Vector3*, 4>& p) {
     for (int j = 0; j < 4; ++j) {
@@ -51,8 +44,8 @@ struct Frame {
     }
     area = normal.norm();
     if (area > 0) normal /= area;
-    const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
-    if (*shortest < no_length * *longest) normal.setZero();
+    std::tie(shortest, longest) = std::minmax({lengths[0], lengths[1], lengths[2], lengths[3]});
+    if (shortest < no_length * longest) normal.setZero();
   }
 
   /// Sine and cosine of the angle of corner j, signed by the mean normal.
@@ -77,24 +70,22 @@ struct Frame {
     }
     return std::max(1 - 2 / pi * off, 0.0);
   }
-};
 
-Corners measure(const std::array<const Vector3*, 4>& p) {
-  const Frame frame(p);
-  Corners corners;
-  corners.q = frame.q();
-  corners.scaled_jacobian = frame.scaled_jacobian();
-  double least = frame.area;
-  for (int j = 0; j < 4; ++j) {
-    least = std::min(least, frame.crosses[j].dot(frame.normal));
-    corners.warping = std::max(corners.warping, angle_between(frame.crosses[j], frame.normal));
+  /// The least Jacobian at a corner, divided by the mean of the four: the cross products are proportional to
+  /// the Jacobians, and `area` is their sum.
+  double jacobian() const {
+    double least = area;
+    for (const Vector3& cross : crosses) least = std::min(least, cross.dot(normal));
+    return area > 0 ? 4 * least / area : 0;
   }
-  // The cross products are proportional to the Jacobians at the corners, and `area` is their sum.
-  corners.jacobian = frame.area > 0 ? 4 * least / frame.area : 0;
-  corners.longest = *std::max_element(frame.lengths.begin(), frame.lengths.end());
-  corners.shortest = *std::min_element(frame.lengths.begin(), frame.lengths.end());
-  return corners;
-}
+
+  /// The largest angle between a corner's normal and the mean normal.
+  double warping() const {
+    double largest = 0;
+    for (const Vector3& cross : crosses) largest = std::max(largest, angle_between(cross, normal));
+    return largest;
+  }
+};
 
 /// Marks the nodes that elements of two faces share.
 void mark_shared_nodes(const ShellMesh& mesh, std::vector<char>& border) {
@@ -108,12 +99,10 @@ void mark_shared_nodes(const ShellMesh& mesh, std::vector<char>& border) {
 }
 
 /// Adds one element's Jacobian to the summary: over the whole element at second order, else at its corners.
-void measure_jacobian(const ShellMesh& mesh, std::size_t quad, const Corners& corners,
+/// \param least,is_inverted by the corners
+void measure_jacobian(const ShellMesh& mesh, std::size_t quad, double least, bool is_inverted,
                       QualitySummary& summary) {
-  const bool is_curved = mesh.order == 2 && quad < mesh.midsides.size();
-  bool is_inverted = corners.scaled_jacobian <= 0;
-  double least = corners.jacobian;
-  if (is_curved) {
+  if (mesh.order == 2 && quad < mesh.midsides.size()) {
     // jacobian_bound() costs far more than quick_jacobian_bound(), which is enough for good elements.
     const CurvedQuad element = curved_quad(mesh, quad);
     least = quick_jacobian_bound(element);
@@ -131,17 +120,18 @@ QualitySummary measure_range(const ShellMesh& mesh, std::size_t begin, std::size
   summary.q_min = summary.sj_min = summary.jacobian_min = 1;
   for (std::size_t i = begin; i < end; ++i) {
     const auto& quad = mesh.quads[i];
-    const Corners corners = measure({&x[quad[0]], &x[quad[1]], &x[quad[2]], &x[quad[3]]});
-    summary.q_min = std::min(summary.q_min, corners.q);
-    summary.q_mean += corners.q;
-    summary.sj_min = std::min(summary.sj_min, corners.scaled_jacobian);
-    summary.sj_mean += corners.scaled_jacobian;
-    measure_jacobian(mesh, i, corners, summary);
-    ++summary.q_histogram[cell_at(corners.q * 20, 20)];
-    const double aspect = corners.longest / std::max(corners.shortest, std::numeric_limits<double>::min());
+    const Frame frame({&x[quad[0]], &x[quad[1]], &x[quad[2]], &x[quad[3]]});
+    const double q = frame.q(), scaled_jacobian = frame.scaled_jacobian();
+    summary.q_min = std::min(summary.q_min, q);
+    summary.q_mean += q;
+    summary.sj_min = std::min(summary.sj_min, scaled_jacobian);
+    summary.sj_mean += scaled_jacobian;
+    measure_jacobian(mesh, i, frame.jacobian(), scaled_jacobian <= 0, summary);
+    ++summary.q_histogram[cell_at(q * 20, 20)];
+    const double aspect = frame.longest / std::max(frame.shortest, std::numeric_limits<double>::min());
     summary.aspect_max = std::max(summary.aspect_max, aspect);
     summary.aspect_mean += aspect;
-    summary.warping_max_degrees = std::max(summary.warping_max_degrees, corners.warping * 180 / pi);
+    summary.warping_max_degrees = std::max(summary.warping_max_degrees, frame.warping() * 180 / pi);
   }
   return summary;
 }

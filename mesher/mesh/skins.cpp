@@ -3,7 +3,6 @@
 #include "mesher/mesh/skins.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "geometry/base/place_text.hpp"
 #include "mesher/mesh/second_order.hpp"
 
 namespace quadrille {
@@ -111,15 +111,10 @@ std::vector<int> faces_with_bad_skins(const ShellMesh& mesh) {
 
 std::string bad_skins_sentence(const std::vector<int>& faces) {
   if (faces.empty()) return {};
-  constexpr std::size_t names_shown = 12;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(names_shown, faces.size()); ++i)
-    names.push_back(fmt::format("Face{}", faces[i]));
-  if (faces.size() > names_shown) names.push_back(fmt::format("{} more", faces.size() - names_shown));
   return fmt::format(
       "elements of {} are inverted on a surface of the shell, since it is too thick for its bend radius "
       "there: solvers that expand shells refuse them; make the bend a sharp corner, or mesh it as a solid",
-      fmt::join(names, ", "));
+      face_names(faces));
 }
 
 }  // namespace quadrille

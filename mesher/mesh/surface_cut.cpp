@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -165,13 +164,6 @@ class PointSplitter {
   std::vector<char> met_;
 };
 
-/// A point and the grid cell that it lies in.
-struct Cell {
-  std::array<std::int64_t, 3> place;
-  int point;
-  auto operator<=>(const Cell&) const = default;  // NOLINT(modernize-use-nullptr)
-};
-
 }  // namespace
 
 std::vector<int> coincident_points(const std::vector<Vector3>& points, double tolerance) {
@@ -193,9 +185,9 @@ std::vector<int> coincident_points(const std::vector<Vector3>& points, double to
       cell[i] = static_cast<std::int64_t>(std::clamp(std::floor(p[i] / tolerance), -9e15, 9e15));
     return cell;
   };
-  std::vector<Cell> cells;
+  std::vector<std::pair<std::array<std::int64_t, 3>, int>> cells;  // of each point
   cells.reserve(points.size());
-  for (int v = 0; v < static_cast<int>(points.size()); ++v) cells.push_back({cell_of(points[v]), v});
+  for (int v = 0; v < static_cast<int>(points.size()); ++v) cells.emplace_back(cell_of(points[v]), v);
   std::sort(cells.begin(), cells.end());
   for (int v = 0; v < static_cast<int>(points.size()); ++v) {
     const auto own = cell_of(points[v]);
@@ -203,11 +195,11 @@ std::vector<int> coincident_points(const std::vector<Vector3>& points, double to
       // Three cells in a row along z are consecutive in the sorted order.
       const std::array<std::int64_t, 3> low{own[0] + k / 3 - 1, own[1] + k % 3 - 1, own[2] - 1};
       const std::array<std::int64_t, 3> high{low[0], low[1], own[2] + 1};
-      for (auto at = std::lower_bound(cells.begin(), cells.end(), Cell{low, -1});
-           at != cells.end() && at->place <= high; ++at)
-        if (at->point < first[v] && first[at->point] == at->point &&
-            (points[at->point] - points[v]).norm() <= tolerance)
-          first[v] = at->point;
+      for (auto at = std::lower_bound(cells.begin(), cells.end(), std::pair(low, -1));
+           at != cells.end() && at->first <= high; ++at)
+        if (const int near = at->second;
+            near < first[v] && first[near] == near && (points[near] - points[v]).norm() <= tolerance)
+          first[v] = near;
     }
   }
   return first;

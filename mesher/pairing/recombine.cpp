@@ -83,12 +83,6 @@ EdgeColoring color_as_in_paper(const TriangleMesh& mesh, std::uint64_t seed, std
   return coloring;
 }
 
-QuadMesh recombine_by_quality(const TriangleMesh& mesh, ExecutionContext& context) {
-  const CostedColoring coloring = color_by_quality(mesh, context);
-  const StageTimer timer(context, Stage::recombine);
-  return remove_color(coloring, mesh);
-}
-
 /// If asked for, triangles that the color leaves are paired too (the paper collapses them).
 QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions& options,
                                ExecutionContext& context) {
@@ -107,8 +101,10 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
 
 QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
                             ExecutionContext& context) {
-  return options.method == Method::paper ? recombine_as_in_paper(mesh, options, context)
-                                         : recombine_by_quality(mesh, context);
+  if (options.method == Method::paper) return recombine_as_in_paper(mesh, options, context);
+  const CostedColoring coloring = color_by_quality(mesh, context);
+  const StageTimer timer(context, Stage::recombine);
+  return remove_color(coloring, mesh);
 }
 
 }  // namespace

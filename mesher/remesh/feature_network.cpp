@@ -20,8 +20,7 @@ constexpr double to_radians = std::numbers::pi / 180;
 
 /// The angle by which the polyline a, b, c turns at b, radians.
 double turn(const Vector3& a, const Vector3& b, const Vector3& c) {
-  const Vector3 in = b - a, out = c - b;
-  return std::atan2(in.cross(out).norm(), in.dot(out));
+  return angle_between(b - a, c - b);
 }
 
 class FeatureFinder {
@@ -83,12 +82,11 @@ class FeatureFinder {
   void mark_folds() {
     marked_.assign(twins_.size(), {0, 0, 0});
     each_side([&](Side side) {
-      bool feature = given(side);
-      if (!feature && rules_.angle > 0) {
-        const Vector3 &a = areas_[triangle_of(side)], &b = areas_[triangle_of(twin(side))];
-        feature = std::atan2(a.cross(b).norm(), a.dot(b)) > rules_.angle * to_radians;
-      }
-      if (feature) mark(side, 1);
+      const auto is_fold = [&] {
+        return rules_.angle > 0 && angle_between(areas_[triangle_of(side)], areas_[triangle_of(twin(side))]) >
+                                       rules_.angle * to_radians;
+      };
+      if (given(side) || is_fold()) mark(side, 1);
     });
   }
 

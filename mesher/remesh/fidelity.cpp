@@ -2,7 +2,7 @@
 
 #include "mesher/remesh/fidelity.hpp"
 
-#include <algorithm>
+#include <map>
 
 #include "mesher/mesh/sides.hpp"
 
@@ -10,8 +10,12 @@ namespace quadrille {
 
 namespace {
 
-/// The mesh as triangles around the middle of each quad, through its midside nodes if it has any.
-TriangleMesh fans_of(const ShellMesh& mesh) {
+/// The mesh as triangles around the middle of each quad, through its midside nodes if it has any. Their tags
+/// are the faces of the surface.
+TriangleMesh fans_of(const ShellMesh& mesh, const std::vector<int>& face_numbers) {
+  std::map<int, int> patch_of_face;
+  for (const int number : face_numbers)
+    patch_of_face.try_emplace(number, static_cast<int>(patch_of_face.size()));
   TriangleMesh fans;
   fans.points = mesh.points;
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
@@ -32,10 +36,17 @@ TriangleMesh fans_of(const ShellMesh& mesh) {
     fans.points.push_back(middle);
     for (std::size_t k = 0; k < loop.size(); ++k) {
       fans.triangles.push_back({loop[k], loop[(k + 1) % loop.size()], center});
-      fans.tags.push_back(mesh.quad_faces[q]);
+      fans.tags.push_back(patch_of_face.at(mesh.quad_faces[q]));
     }
   }
   return fans;
+}
+
+double area_of(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+  return sum;
 }
 
 double volume_of(const TriangleMesh& mesh) {
@@ -59,41 +70,25 @@ void raise(RemeshFidelity::Distance& largest, double length, const Vector3& at, 
 
 }  // namespace
 
-double area_of(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += 0.5 * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
-  return sum;
-}
-
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,
                                 const SurfaceLocator& locator, const ShellMesh& mesh,
-                                const std::map<int, int>& patch_of_face) {
+                                const std::vector<int>& face_numbers) {
   RemeshFidelity result;
-  const TriangleMesh fans = fans_of(mesh);
+  const TriangleMesh fans = fans_of(mesh, face_numbers);
   for (std::size_t t = 0; t < fans.triangles.size(); ++t) {
     const auto& [a, b, center] = fans.triangles[t];
-    const int patch = patch_of_face.at(fans.tags[t]);
+    const int patch = fans.tags[t];
     for (const Vector3& p :
          {fans.points[a], Vector3(0.5 * (fans.points[a] + fans.points[b])), fans.points[center]})
-      raise(result.of_mesh, (locator.nearest(patch, p).point - p).norm(), p, fans.tags[t]);
+      raise(result.of_mesh, (locator.nearest(patch, p).point - p).norm(), p, face_numbers[patch]);
   }
-  std::vector<int> by_patch;
-  int count = 0;
-  std::vector<int> face_of_patch;
-  for (const auto& [face, patch] : patch_of_face) {
-    count = std::max(count, patch + 1);
-    face_of_patch.resize(count, 0);
-    face_of_patch[patch] = face;
-  }
-  by_patch.reserve(fans.tags.size());
-  for (const int face : fans.tags) by_patch.push_back(patch_of_face.at(face));
-  const SurfaceLocator made(fans, by_patch, count);
+  const SurfaceLocator made(fans, fans.tags, static_cast<int>(face_numbers.size()));
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     for (const int v : surface.triangles[t]) {
       const Vector3& p = surface.points[v];
-      raise(result.of_surface, (made.nearest(patches[t], p).point - p).norm(), p, face_of_patch[patches[t]]);
+      raise(result.of_surface, (made.nearest(patches[t], p).point - p).norm(), p, face_numbers[patches[t]]);
     }
+  result.surface_area = area_of(surface);
   result.mesh_area = area_of(fans);
   if (is_closed(surface)) {
     result.surface_volume = volume_of(surface);

@@ -1,7 +1,6 @@
 #pragma once
 /// How far a mesh deviates from the surface that it was made from. Internal.
 
-#include <map>
 #include <vector>
 
 #include "mesher/mesh/mesh_types.hpp"
@@ -10,13 +9,11 @@
 
 namespace quadrille {
 
-double area_of(const TriangleMesh& mesh);
-
-/// Measures the distances in both directions, the area of the mesh, and the volumes if the surface is closed;
-/// not the surface's area. \param patches (triangles of the surface) the face of each triangle, from 0.
-/// \param patch_of_face face number in the mesh -> face of the surface. O(n log n).
+/// Measures the distances in both directions, the areas, and the volumes if the surface is closed.
+/// \param patches (triangles of the surface) the face of each triangle, from 0. \param face_numbers (faces of
+/// the surface) the number of each in the mesh. O(n log n).
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,
                                 const SurfaceLocator& locator, const ShellMesh& mesh,
-                                const std::map<int, int>& patch_of_face);
+                                const std::vector<int>& face_numbers);
 
 }  // namespace quadrille

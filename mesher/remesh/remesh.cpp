@@ -15,8 +15,8 @@
 #include <unordered_map>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/free_memory.hpp"
 #include "geometry/base/place_text.hpp"
+#include "geometry/base/process_usage.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/parallel_ids.hpp"
@@ -97,22 +97,17 @@ Surface oriented_surface(TriangleMesh mesh, std::vector<std::string>& notes) {
   return surface;
 }
 
-/// Diagonals of the bounding boxes of the pieces.
-std::vector<double> diagonals(const Surface& surface) {
+std::vector<Eigen::AlignedBox3d> boxes_of_pieces(const Surface& surface) {
   std::vector<Eigen::AlignedBox3d> boxes(surface.piece_count);
   for (std::size_t t = 0; t < surface.pieces.size(); ++t)
     for (const int v : surface.mesh.triangles[t]) boxes[surface.pieces[t]].extend(surface.mesh.points[v]);
-  std::vector<double> result;
-  result.reserve(boxes.size());
-  for (const auto& box : boxes) result.push_back(box.diagonal().norm());
-  return result;
+  return boxes;
 }
 
 /// Throws Error (usage) if the size exceeds the surface's diagonal. \return that diagonal.
 double check_size(const Surface& surface, const RemeshOptions& options) {
   Eigen::AlignedBox3d box;
-  for (const auto& triangle : surface.mesh.triangles)
-    for (const int v : triangle) box.extend(surface.mesh.points[v]);
+  for (const auto& piece : boxes_of_pieces(surface)) box.extend(piece);
   const double diagonal = box.diagonal().norm();
   if (options.size > diagonal)
     throw usage_error("size", fmt::format("`size` is {:g}, larger than the surface, whose diagonal is {:.6g}",
@@ -224,8 +219,8 @@ Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vect
 /// mean thickness, unless their walls are thin. The mean thickness is twice the volume over the area.
 std::vector<double> longest_sides(const Model& model, double size) {
   constexpr double least_across = 4, of_thickness = 1.2, least_of_size = 0.5;
-  std::vector<double> most = diagonals(model.surface);
-  for (double& length : most) length /= least_across;
+  std::vector<double> most;
+  for (const auto& box : boxes_of_pieces(model.surface)) most.push_back(box.diagonal().norm() / least_across);
   std::vector<char> has_curve(most.size(), 0), on_curve(model.surface.mesh.points.size(), 0);
   for (const FeatureCurve& curve : model.network.curves)
     for (const int v : curve.points) on_curve[v] = 1;
@@ -277,10 +272,8 @@ RemeshedTriangles make_triangles(const Model& model, const std::vector<double>& 
     double& least = by_curve.emplace_back(targets[curve.points.front()]);
     for (const int v : curve.points) least = std::min(least, targets[v]);
   }
-  TriangleMesh untagged = model.surface.mesh;
-  untagged.tags.clear();
-  return remesh_triangles(untagged, model.network, place_on_curves(model.network, by_curve), model.locator,
-                          targets, context);
+  return remesh_triangles(model.surface.mesh, model.network, place_on_curves(model.network, by_curve),
+                          model.locator, targets, context);
 }
 
 /// Whether a quad is inverted, or has a side of no length. Unfolding looks only at shape, not at size.
@@ -438,10 +431,9 @@ class PieceCutter {
       for (int i = 0; i < 3; ++i) {
         const int v = triangle[i];
         if (!model_.network.corner[v]) continue;
-        const Vector3& p = model_.surface.mesh.points[v];
-        const Vector3 a = model_.surface.mesh.points[triangle[next_index(i)]] - p,
-                      b = model_.surface.mesh.points[triangle[previous_index(i)]] - p;
-        sums[{model_.network.patches[t], v}] += std::atan2(a.cross(b).norm(), a.dot(b));
+        const auto& p = model_.surface.mesh.points;
+        sums[{model_.network.patches[t], v}] +=
+            angle_between(p[triangle[next_index(i)]] - p[v], p[triangle[previous_index(i)]] - p[v]);
       }
     }
     return sums;
@@ -699,13 +691,8 @@ ShellMesh remesh_oriented(const ShellMesh& input, const RemeshOptions& options, 
           "",
           fmt::format("the surface is closed, but {} sides of the mesh are open: use another size", open));
   tell_straight_sides(mesh, notes);
-  if (fidelity != nullptr) {
-    std::map<int, int> patch_of_face;
-    for (int patch = 0; patch < model.network.patch_count; ++patch)
-      patch_of_face[model.face_numbers[patch]] = patch;
-    *fidelity = measure_fidelity(surface, model.network.patches, model.locator, mesh, patch_of_face);
-    fidelity->surface_area = area_of(surface);
-  }
+  if (fidelity != nullptr)
+    *fidelity = measure_fidelity(surface, model.network.patches, model.locator, mesh, model.face_numbers);
   tell_faces(mesh, model.face_numbers);
   keep_groups(input, model, notes, mesh);
   return mesh;

@@ -26,9 +26,10 @@ struct RemeshedTriangles {
 /// Makes triangles on each patch of the surface, with sides as long as `targets` asks. They are smaller where
 /// nodes on curves are closer, and where triangles would fold by more than 60 degrees at a side (down to an
 /// eighth). Corners stay, nodes on curves are those of `nodes` (see place_on_curves()), and other points lie
-/// on the patch. \param surface without tags. \param targets (points of the surface) wanted side lengths,
-/// millimeters. Throws Error (cancelled). Based on: Botsch & Kobbelt, A remeshing approach to multiresolution
-/// modeling (2004): sides are split, collapsed and flipped, and points move along the surface.
+/// on the patch. \param surface its tags do not matter. \param targets (points of the surface) wanted side
+/// lengths, millimeters. Throws Error (cancelled). Based on: Botsch & Kobbelt, A remeshing approach to
+/// multiresolution modeling (2004): sides are split, collapsed and flipped, and points move along the
+/// surface.
 RemeshedTriangles remesh_triangles(const TriangleMesh& surface, const FeatureNetwork& network,
                                    const std::vector<std::vector<double>>& nodes,
                                    const SurfaceLocator& locator, const std::vector<double>& targets,

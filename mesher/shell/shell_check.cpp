@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include "geometry/base/nearest_on_segment.hpp"
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/side_key.hpp"
+#include "geometry/base/vector.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/sides.hpp"

@@ -231,83 +231,68 @@ class Straightening {
   std::map<int, Straightened> sides_;
 };
 
-class Unfolding {
- public:
-  Unfolding(const MeshedFaces& meshed, const ShellNumbering& numbering, Midsides& midsides, ShellMesh& mesh,
-            const ExecutionContext& context)
-      : meshed_(meshed), numbering_(numbering), midsides_(midsides), mesh_(mesh), context_(context) {}
+using QuadsOfFaces = IdVector<FaceId, std::vector<std::size_t>>;
 
-  std::vector<std::size_t> run() {
-    const QuadsOfFaces at_first = folded();
-    for (const FaceId face : at_first.ids()) {
-      if (at_first[face].empty()) continue;
-      const auto surface = meshed_.surface(face);
-      const auto [first, end] = numbering_.quads_of(face);
-      Sliding(mesh_, *surface, first, end, midsides_, context_).run(at_first[face]);
+/// The elements that fold.
+QuadsOfFaces find_folded(const ShellMesh& mesh, const MeshedFaces& meshed, const ShellNumbering& numbering,
+                         const ExecutionContext& context) {
+  QuadsOfFaces result(meshed.faces.size());
+  for_each_id(result, [&](FaceId face) {
+    SparseCheck check(context, 256);
+    const auto [first, end] = numbering.quads_of(face);
+    for (std::size_t quad = first; quad < end; ++quad) {
+      check();
+      if (folds_in(mesh, quad)) result[face].push_back(quad);
     }
-    std::vector<std::size_t> left = joined(folded());
-    if (left.empty()) return left;
-    Straightening straightening(mesh_, midsides_.first_inner, context_);
-    straightening.run(left);
-    list(straightening);
-    return joined(folded());
-  }
+  });
+  return result;
+}
 
- private:
-  using QuadsOfFaces = IdVector<FaceId, std::vector<std::size_t>>;
+std::vector<std::size_t> joined(const QuadsOfFaces& of_faces) {
+  std::vector<std::size_t> result;
+  for (const auto& quads : of_faces) result.insert(result.end(), quads.begin(), quads.end());
+  return result;
+}
 
-  /// The elements that fold.
-  QuadsOfFaces folded() const {
-    QuadsOfFaces result(meshed_.faces.size());
-    for_each_id(result, [&](FaceId face) {
-      SparseCheck check(context_, 256);
-      const auto [first, end] = numbering_.quads_of(face);
-      for (std::size_t quad = first; quad < end; ++quad) {
-        check();
-        if (folds_in(mesh_, quad)) result[face].push_back(quad);
+/// Lists the nodes that are off the geometry now.
+void list(const Straightening& straightening, const MeshedFaces& meshed, const ShellNumbering& numbering,
+          const Midsides& midsides, ShellMesh& mesh) {
+  constexpr double on_geometry = 1e-7;  // share of a side; on a planar face nodes stay on the geometry
+  std::shared_ptr<const MeshSurface> surface;
+  FaceId face;  // face of `surface`
+  for (const auto& [node, side] : straightening.sides()) {
+    if (side.share == 0) continue;
+    Vector3 nearest = side.place;
+    if (node >= static_cast<int>(midsides.first_inner)) {
+      if (const FaceId of_side = numbering.face_of(side.quad); of_side != face) {
+        face = of_side;
+        surface = meshed.surface(face);
       }
-    });
-    return result;
-  }
-
-  static std::vector<std::size_t> joined(const QuadsOfFaces& of_faces) {
-    std::vector<std::size_t> result;
-    for (const auto& quads : of_faces) result.insert(result.end(), quads.begin(), quads.end());
-    return result;
-  }
-
-  void list(const Straightening& straightening) {
-    constexpr double on_geometry = 1e-7;  // share of a side; on a planar face nodes stay on the geometry
-    std::shared_ptr<const MeshSurface> surface;
-    FaceId face;  // face of `surface`
-    for (const auto& [node, side] : straightening.sides()) {
-      if (side.share == 0) continue;
-      Vector3 nearest = side.place;
-      if (node >= static_cast<int>(midsides_.first_inner)) {
-        if (const FaceId of_side = numbering_.face_of(side.quad); of_side != face) {
-          face = of_side;
-          surface = meshed_.surface(face);
-        }
-        Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
-        nearest = surface->nearest(uv, mesh_.points[node]);
-      }
-      const double distance = (mesh_.points[node] - nearest).norm();
-      if (distance > on_geometry * side.length) mesh_.off_geometry.push_back({node, distance});
+      Vector2 uv = midsides.parameters[node - midsides.first_inner];
+      nearest = surface->nearest(uv, mesh.points[node]);
     }
+    const double distance = (mesh.points[node] - nearest).norm();
+    if (distance > on_geometry * side.length) mesh.off_geometry.push_back({node, distance});
   }
-
-  const MeshedFaces& meshed_;
-  const ShellNumbering& numbering_;
-  Midsides& midsides_;
-  ShellMesh& mesh_;
-  const ExecutionContext& context_;
-};
+}
 
 }  // namespace
 
 std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
                                 Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context) {
-  return Unfolding(meshed, numbering, midsides, mesh, context).run();
+  const QuadsOfFaces at_first = find_folded(mesh, meshed, numbering, context);
+  for (const FaceId face : at_first.ids()) {
+    if (at_first[face].empty()) continue;
+    const auto surface = meshed.surface(face);
+    const auto [first, end] = numbering.quads_of(face);
+    Sliding(mesh, *surface, first, end, midsides, context).run(at_first[face]);
+  }
+  const std::vector<std::size_t> left = joined(find_folded(mesh, meshed, numbering, context));
+  if (left.empty()) return {};
+  Straightening straightening(mesh, midsides.first_inner, context);
+  straightening.run(left);
+  list(straightening, meshed, numbering, midsides, mesh);
+  return joined(find_folded(mesh, meshed, numbering, context));
 }
 
 }  // namespace quadrille

@@ -31,6 +31,7 @@
 #include "geometry/base/error.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/cad_shape.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 #include "mesher/quadrille.hpp"
 #include "mesher/settings.hpp"
@@ -362,13 +363,13 @@ TEST(Imprinting, ATubeWithAnOpenSeamIsKept) {
   for (const auto& [nodes, runs] : sides_of(meshed(model))) EXPECT_EQ(runs.size(), 2u);
 }
 
-/// A pipe of radius 5 as a line that turns around an axis, as IGES files have it.
-TopoDS_Shape turned_line(const gp_Ax1& axis, const gp_Pnt& from, const gp_Pnt& to) {
+/// A pipe as a line that turns around an axis, as IGES files have it.
+TopoDS_Shape turned_line(const gp_Ax1& axis, const gp_Pnt& from, const gp_Pnt& to,
+                         double angle = 2 * std::acos(-1)) {
   const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(from, to).Edge();
   const BRepAdaptor_Curve curve(line);
   const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(curve.Curve().Curve(), axis);
-  return BRepBuilderAPI_MakeFace(surface, 0, 2 * std::acos(-1), curve.FirstParameter(), curve.LastParameter(),
-                                 1e-7)
+  return BRepBuilderAPI_MakeFace(surface, 0, angle, curve.FirstParameter(), curve.LastParameter(), 1e-7)
       .Face();
 }
 
@@ -385,6 +386,27 @@ TEST(Imprinting, PipesThatCrossAreCylinders) {
       EXPECT_EQ(BRepAdaptor_Surface(face.face).GetType(), GeomAbs_Cylinder);
     expect_joined(model);
   }
+}
+
+/// OpenCASCADE crashes on it if asked to make the turned line a cylinder (SweptToElementary).
+TEST(Imprinting, APlateMayShareAnEdgeWithATurnedLine) {
+  const TopoDS_Shape half = turned_line({{0, 0, 0}, gp::DZ()}, {5, 0, -10}, {5, 0, 10}, std::acos(-1));
+  const gp_Pnt corners[] = {{5, 0, -10}, {5, -20, -10}, {5, -20, 10}, {5, 0, 10}};
+  BRepBuilderAPI_MakeWire outline;
+  for (const TopoDS_Edge& edge : edges_of(half))
+    if (const BRepAdaptor_Curve curve(edge);
+        curve.GetType() == GeomAbs_Line && curve.Value(curve.FirstParameter()).X() > 0)
+      outline.Add(edge);
+  for (int i = 0; i < 3; ++i) outline.Add(BRepBuilderAPI_MakeEdge(corners[i], corners[i + 1]).Edge());
+  TopoDS_Shell shell;
+  const BRep_Builder builder;
+  builder.MakeShell(shell);
+  builder.Add(shell, half);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(outline.Wire()).Face());
+  const CadModel model = model_of({shell}).imprinted(0);
+  EXPECT_EQ(model.face_count(), 2);
+  EXPECT_NEAR(model.area(), 5 * std::acos(-1) * 20 + 20 * 20, 1);
+  expect_joined(model);
 }
 
 TEST(Imprinting, ASinglePartStaysAsItIs) {

@@ -14,7 +14,9 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <string>
 
+#include "geometry/base/error.hpp"
 #include "mesher/quadrille.hpp"
 
 namespace quadrille {
@@ -48,6 +50,27 @@ TEST(EdgeSampling, GivesArcsTheSegmentsThatTheirSizesAskForAtLeast) {
       for (const auto& [edge, angle] : arcs)
         EXPECT_GE(segments[edge], per_circle * angle / (2 * M_PI) - 0.5) << size << " " << per_circle;
     }
+  }
+}
+
+/// The number of segments on an edge with a bias follows the sizes beside it, so that the ratios of lengths
+/// may multiply to any number.
+TEST(EdgeSampling, RefusesBiasesThatLeaveSegmentsNoLength) {
+  const CadModel model(std::make_shared<CadShape>(BRepPrimAPI_MakeBox(40, 30, 20).Shape(), "block"));
+  MeshOptions options;
+  options.sizing.size = 1.5;
+  options.sizing.spacings[1].bias_both = 10;
+  ExecutionContext context(1);
+  EXPECT_NO_THROW(quadrille::mesh(model, options, context));
+  for (const FaceId face : model.shape().edges[EdgeId::from_number(1)].faces)
+    options.sizing.face_sizes[face.number()] = 0.7;
+  try {
+    quadrille::mesh(model, options, context);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::usage);
+    EXPECT_EQ(error.subject(), "bias_both");
+    EXPECT_NE(std::string(error.what()).find("Edge1"), std::string::npos) << error.what();
   }
 }
 

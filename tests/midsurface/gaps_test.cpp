@@ -30,7 +30,7 @@ double volume(const TopoDS_Shape& shape) {
 TEST(Gaps, AreFilledWhereTheyAreNarrowerThanTheWall) {
   const ExecutionContext context(1);
   for (const double gap : {0.2, 1.0, 1.8}) {
-    const GapFillers fillers = fill_gaps(skins_of(tee(gap), false, context), context);
+    const NumberedSolids fillers = fill_gaps(skins_of(tee(gap), false, context), context);
     ASSERT_FALSE(fillers.solids.empty()) << gap;
     for (const TopoDS_Shape& solid : fillers.solids) EXPECT_GE(volume(solid), 2 * 30 * gap - 1e-6);
     const std::deque<Skin> joined = skins_of(tee(gap), true, context);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 
 #include <algorithm>
@@ -47,6 +48,22 @@ std::size_t open_sides(const SurfaceTriangles& surface) {
       sides[std::minmax(a, b)] += a < b ? 1 : -1;
     }
   return std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second != 0; });
+}
+
+/// As faces have that were joined from facets.
+TEST(SurfaceTriangles, FacesMayBeOutlinedByEdgesOfOthers) {
+  CadShape shape = cylinder();
+  FaceFlags used(shape.faces.size(), 0);
+  const FaceId side = FaceId::from_number(1);
+  used[side] = 1;
+  const std::size_t lines = triangles_of(shape, used).lines.size();
+  const TopoDS_Edge other = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Edge();
+  Coedge added = shape.faces[side].wires.front().coedges.front();
+  added.source = other;
+  shape.faces[side].wires.front().coedges.push_back(added);
+  const SurfaceTriangles surface = triangles_of(shape, used);
+  EXPECT_TRUE(surface.missing.empty());
+  EXPECT_EQ(surface.lines.size(), lines);
 }
 
 TEST(SurfaceTriangles, LieOnTheirFacesAndLookOutwards) {
