@@ -14,7 +14,7 @@
 #include "geometry/base/threads.hpp"
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/sizing_field.hpp"
-#include "mesher/faces/grid_waste.hpp"
+#include "mesher/faces/face_grid.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/stages/stages.hpp"
 

@@ -367,8 +367,7 @@ void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vec
   const FaceId first = members.front();
   for (const EdgeId id : inner) {
     CadEdge& edge = shape.edges[id];
-    model.inner.push_back(
-        {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)});
+    model.inner.push_back(crossed_edge(edge, pieces));
     edge.faces.clear();
   }
   for (const FaceId member : members) {

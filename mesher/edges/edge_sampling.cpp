@@ -386,8 +386,7 @@ class NodePlacer {
       if (counts[i] > 0) place_nodes(i, check);
     }
     for (const MatchedEdge& copy : plan_.matched)
-      result_.edges[copy.from].matched = result_.edges[copy.to].matched = result_.edges[copy.to].copied =
-          true;
+      result_.edges[copy.from].matched = result_.edges[copy.to].matched = true;
     return std::move(result_);
   }
 

@@ -31,7 +31,6 @@ struct BoundaryNodes {
     bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
     bool matched = false;            ///< its nodes are those of another edge, moved, or the other way round
     bool borrows = false;            ///< its nodes are those of another edge (TinyFeatures)
-    bool copied = false;             ///< its nodes are those of another edge, moved
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
   std::vector<Vector3> points;

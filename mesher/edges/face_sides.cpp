@@ -61,23 +61,15 @@ class SideFinder {
     std::vector<Walk> walks;
     const FaceSurface surface(face);
     for (const CadWire& wire : face.wires) {
-      Walk walk;
-      if (!wire.ordered) return {};
-      for (std::size_t k = 0; k < wire.coedges.size(); ++k) {
-        const Coedge& coedge = wire.coedges[k];
-        const EdgeId edge = coedge.edge;
-        if (coedge.internal || shape_.edges[edge].degenerate) return {};
-        if (!tiny_.has(id, edge)) continue;
-        walk.coedges.push_back(static_cast<int>(k));
-        walk.edges.push_back({edge, coedge.forward});
+      const std::vector<const Coedge*> coedges = coedges_left(shape_, tiny_, id, wire);
+      if (coedges.empty()) return {};
+      Walk& walk = walks.emplace_back();
+      const Coedge* before = coedges.back();
+      for (const Coedge* coedge : coedges) {
+        walk.coedges.push_back(static_cast<int>(coedge - wire.coedges.data()));
+        walk.edges.push_back({coedge->edge, coedge->forward});
+        walk.turnings.push_back(turning_at(shape_, surface, *std::exchange(before, coedge), *coedge));
       }
-      const std::size_t n = walk.edges.size();
-      if (n == 0) return {};
-      for (std::size_t k = 0; k < n; ++k) {
-        walk.turnings.push_back(turning_at(shape_, surface, wire.coedges[walk.coedges[(k + n - 1) % n]],
-                                           wire.coedges[walk.coedges[k]]));
-      }
-      walks.push_back(std::move(walk));
     }
     return walks;
   }

@@ -14,7 +14,6 @@
 #include <TopoDS.hxx>
 
 #include <algorithm>
-#include <array>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
@@ -112,14 +111,11 @@ class FacetEdges {
       parameters.push_back(parameters.back() + shape_.edges[edge].length);
     }
     CadEdge whole = joined_edge(chain, vertices, parameters);
-    const std::array<FaceId, 2> faces{whole.faces[0], whole.faces[1]};
-    for (const FaceId face : faces) replace_in(shape_.faces[face], chain, whole, parameters);
-    constexpr int pieces = 1;
+    for (const FaceId face : whole.faces) replace_in(shape_.faces[face], chain, whole, parameters);
     for (const EdgeId id : chain) {
       if (id == chain.front()) continue;
       CadEdge& edge = shape_.edges[id];
-      model_.inner.push_back(
-          {edge.number, {faces.front().number(), faces.back().number()}, points_along(edge, pieces)});
+      model_.inner.push_back(crossed_edge(edge, 1));
       edge.faces.clear();
     }
     shape_.edges[chain.front()] = std::move(whole);

@@ -53,46 +53,45 @@ int start_of(double low, double high, int cells, int of) {
   return round_to_int(middle - 0.5 * cells + bias);
 }
 
-/// The counts that fit the holes of a face into its grid.
-struct Fit {
-  std::vector<int> around;      // segments of the final mesh, by wire; 0 for the outer one
-  std::array<double, 2> sides;  // factors on the counts of the two pairs of facing sides
-};
-
 class HoleFitter {
  public:
-  HoleFitter(const CadShape& shape, const EdgeCounts& chosen, const IdVector<EdgeId, CountTable>& tables)
-      : shape_(shape), chosen_(chosen), tables_(tables) {}
+  HoleFitter(const CadShape& shape, const EdgeCounts& chosen, const IdVector<EdgeId, CountTable>& tables,
+             CountTargets& targets)
+      : shape_(shape), chosen_(chosen), tables_(tables), targets_(targets) {}
 
-  std::optional<Fit> fit(const CadFace& face, const FaceSides& sides) const {
+  /// \return whether the wanted counts of the face's edges changed
+  bool fit(const CadFace& face, const FaceSides& sides) {
     const GridSize now{count_of(sides, 0), count_of(sides, 1)};
-    if (now.columns < 3 || now.rows < 3 || sides.starts.size() != 4) return std::nullopt;
-    const auto& outline = face.wires[sides.outer].coedges;
-    double length = 0;
-    for (const Coedge& coedge : outline) length += shape_.edges[coedge.edge].length;
-    const double side = length / (2 * (now.columns + now.rows));
-    for (std::size_t wire = 0; wire < face.wires.size(); ++wire) {
-      if (static_cast<int>(wire) != sides.outer && !has_size_of(face.wires[wire], side)) return std::nullopt;
-    }
+    if (now.columns < 3 || now.rows < 3 || sides.starts.size() != 4) return false;
+    std::vector<const CadWire*> holes;
+    for (const CadWire& wire : face.wires) holes.push_back(&wire);
+    holes.erase(holes.begin() + sides.outer);
+    const double side = length_of(face.wires[sides.outer]) / (2 * (now.columns + now.rows));
+    if (!std::all_of(holes.begin(), holes.end(),
+                     [&](const CadWire* hole) { return has_size_of(*hole, side); }))
+      return false;
     std::vector<HolePlace> shares;
     for (const HoleShares& hole : shares_of_holes(shape_, face, sides))
       shares.push_back(place_of(hole, [](const Vector2& share) { return share; }));
-    if (shares.empty()) return std::nullopt;
+    if (shares.empty()) return false;
     const GridSize grid{best_count(shares, 0, now.columns), best_count(shares, 1, now.rows)};
-    Fit result{{},
-               {static_cast<double>(grid.columns) / now.columns, static_cast<double>(grid.rows) / now.rows}};
     std::vector<HoleBlock> blocks;
     for (const HolePlace& share : shares) {
-      if (static_cast<int>(result.around.size()) == sides.outer) result.around.push_back(0);
       const Vector2 scale(grid.columns, grid.rows);
       const auto block =
           block_of({share.low.cwiseProduct(scale), share.high.cwiseProduct(scale), share.even}, 0, grid);
-      if (!block) return std::nullopt;
+      if (!block) return false;
       blocks.push_back(*block);
-      result.around.push_back(block->around());
     }
-    if (!keep_apart(blocks, grid)) return std::nullopt;
-    return result;
+    if (!keep_apart(blocks, grid)) return false;
+    bool any = scale_counts(sides.facing[0], static_cast<double>(grid.columns) / now.columns);
+    any |= scale_counts(sides.facing[1], static_cast<double>(grid.rows) / now.rows);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const double length = length_of(*holes[i]);
+      for (const Coedge& coedge : holes[i]->coedges)
+        any |= want(coedge.edge, shape_.edges[coedge.edge].length / length * blocks[i].around());
+    }
+    return any;
   }
 
  private:
@@ -124,19 +123,38 @@ class HoleFitter {
     return best;
   }
 
+  double length_of(const CadWire& wire) const {
+    double length = 0;
+    for (const Coedge& coedge : wire.coedges) length += shape_.edges[coedge.edge].length;
+    return length;
+  }
+
   bool has_size_of(const CadWire& wire, double side) const {
-    double length = 0, segments = 0;
-    for (const Coedge& coedge : wire.coedges) {
-      length += shape_.edges[coedge.edge].length;
-      segments += tables_[coedge.edge].total();
-    }
-    const double ratio = length / std::max(segments, 1.0) / side;
+    double segments = 0;
+    for (const Coedge& coedge : wire.coedges) segments += tables_[coedge.edge].total();
+    const double ratio = length_of(wire) / std::max(segments, 1.0) / side;
     return ratio > least_hole_ratio && ratio < largest_hole_ratio;
+  }
+
+  /// \return whether that is another number
+  bool want(EdgeId edge, double segments) {
+    double& wanted = targets_.wanted[edge];
+    const bool changes = std::abs(wanted * targets_.stride - segments) > 0.5;
+    wanted = segments / targets_.stride;
+    return changes;
+  }
+
+  bool scale_counts(const FacingPair& pair, double factor) {
+    bool any = false;
+    for (const SideEdge& edge : pair.edges())
+      any |= factor != 1 && want(edge.edge, factor * chosen_.counts[edge.edge]);
+    return any;
   }
 
   const CadShape& shape_;
   const EdgeCounts& chosen_;
   const IdVector<EdgeId, CountTable>& tables_;
+  CountTargets& targets_;
 };
 
 }  // namespace
@@ -215,31 +233,10 @@ bool keep_apart(const std::vector<HoleBlock>& blocks, const GridSize& grid) {
 
 bool fit_holes_to_grids(const CadShape& shape, const FaceOutlines& sides, const EdgeCounts& chosen,
                         const IdVector<EdgeId, CountTable>& tables, CountTargets& targets) {
-  const HoleFitter fitter(shape, chosen, tables);
+  HoleFitter fitter(shape, chosen, tables, targets);
   bool any = false;
-  for (const FaceId i : sides.ids()) {
-    if (!sides[i].has_holes()) continue;
-    const CadFace& face = shape.faces[i];
-    const auto fit = fitter.fit(face, sides[i]);
-    if (!fit) continue;
-    const auto want = [&](EdgeId edge, double segments) {
-      any |= std::abs(targets.wanted[edge] * targets.stride - segments) > 0.5;
-      targets.wanted[edge] = segments / targets.stride;
-    };
-    for (const std::size_t k : {0, 1}) {
-      if (fit->sides[k] == 1) continue;
-      for (const SideEdge& edge : sides[i].facing[k].edges())
-        want(edge.edge, fit->sides[k] * chosen.counts[edge.edge]);
-    }
-    for (std::size_t wire = 0; wire < fit->around.size(); ++wire) {
-      double length = 0;
-      for (const Coedge& coedge : face.wires[wire].coedges) length += shape.edges[coedge.edge].length;
-      for (const Coedge& coedge : face.wires[wire].coedges) {
-        const EdgeId edge = coedge.edge;
-        if (fit->around[wire] > 0) want(edge, shape.edges[edge].length / length * fit->around[wire]);
-      }
-    }
-  }
+  for (const FaceId face : sides.ids())
+    any |= sides[face].has_holes() && fitter.fit(shape.faces[face], sides[face]);
   return any;
 }
 

@@ -131,19 +131,11 @@ class MotionSearch {
     MatchLink link;
     link.pair = pair;
     link.tolerance = tolerance_;
-    link.edges = best_->edges;
-    link.face = {a_.face, b_.face, best_->flips, best_->motion, best_->edges};
+    link.found = std::move(*best_);
     return link;
   }
 
  private:
-  struct Candidate {
-    RigidMotion motion;
-    bool flips = false;
-    std::vector<MatchedEdge> edges;
-    std::tuple<int, int, bool, double> cost;
-  };
-
   bool equally_long(std::size_t a, std::size_t b) const {
     return std::abs(shape_.edges[a_.edges[a]].length - shape_.edges[b_.edges[b]].length) <= 4 * tolerance_;
   }
@@ -185,23 +177,26 @@ class MotionSearch {
   }
 
   void consider(std::size_t base, std::size_t other, bool reversed) {
-    Candidate candidate;
+    MatchedFace candidate;
+    candidate.from = a_.face;
+    candidate.to = b_.face;
     candidate.motion = fit_motion(points_of(a_, base), points_of(b_, other, reversed), tolerance_);
     if (!map_edges(candidate)) return;
     fit_to_all(candidate);
     if (!map_edges(candidate) || !map_surface(candidate)) return;
     const RigidMotion& motion = candidate.motion;
     constexpr double step = 1e-6;  // angles that differ by less are equal
-    candidate.cost = {motion.angle == 0              ? 0
-                      : motion.translation.isZero(0) ? 1
-                                                     : 2,
-                      moved_of_shared(candidate), !candidate.flips,
-                      std::round(std::abs(motion.angle) / step)};
-    if (!best_ || candidate.cost < best_->cost) best_ = std::move(candidate);
+    const Cost cost{motion.angle == 0              ? 0
+                    : motion.translation.isZero(0) ? 1
+                                                   : 2,
+                    moved_of_shared(candidate), !candidate.flips, std::round(std::abs(motion.angle) / step)};
+    if (best_ && !(cost < least_)) return;
+    best_ = std::move(candidate);
+    least_ = cost;
   }
 
   /// Improves the motion by all edges.
-  void fit_to_all(Candidate& candidate) const {
+  void fit_to_all(MatchedFace& candidate) const {
     std::map<EdgeId, std::size_t> places;
     for (std::size_t i = 0; i < b_.edges.size(); ++i) places[b_.edges[i]] = i;
     std::vector<Vector3> from, to;
@@ -215,7 +210,7 @@ class MotionSearch {
   }
 
   /// Finds the image of each edge. \return false if one has none.
-  bool map_edges(Candidate& candidate) {
+  bool map_edges(MatchedFace& candidate) {
     candidate.edges.clear();
     std::vector<char> taken(b_.edges.size(), 0);
     for (std::size_t i = 0; i < a_.edges.size(); ++i) {
@@ -252,7 +247,7 @@ class MotionSearch {
   }
 
   /// Whether points inside the first face go to the surface of the second.
-  bool map_surface(Candidate& candidate) {
+  bool map_surface(MatchedFace& candidate) {
     if (!a_.face.exists()) return true;
     const CadFace &from = shape_.faces[a_.face], &to = shape_.faces[b_.face];
     const FaceSurface surface(from), other(to);
@@ -288,7 +283,7 @@ class MotionSearch {
   }
 
   /// The number of edges that both faces have and the motion moves.
-  int moved_of_shared(const Candidate& candidate) const {
+  int moved_of_shared(const MatchedFace& candidate) const {
     int moved = 0;
     for (const MatchedEdge& edge : candidate.edges) {
       const bool shared = std::find(b_.edges.begin(), b_.edges.end(), edge.from) != b_.edges.end();
@@ -301,7 +296,9 @@ class MotionSearch {
   Outline a_, b_;
   double tolerance_;
   double nearest_ = std::numeric_limits<double>::infinity();  // least distance that was too large
-  std::optional<Candidate> best_;
+  using Cost = std::tuple<int, int, bool, double>;
+  std::optional<MatchedFace> best_;
+  Cost least_;  // of the best one
 };
 
 void turn_back(MatchedEdge& edge) {
@@ -379,21 +376,17 @@ RigidMotion fit_motion(const std::vector<Vector3>& from, const std::vector<Vecto
 }
 
 std::vector<VertexId> Matches::vertices(const CadShape& shape) const {
-  std::vector<VertexId> result;
-  for (const EdgeId id : matched_edges.ids()) {
-    if (!matched_edges[id]) continue;
-    for (const VertexId vertex : {shape.edges[id].first_vertex, shape.edges[id].last_vertex})
-      if (vertex.exists()) result.push_back(vertex);
-  }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+  std::set<VertexId> result;
+  for (const MatchLink& link : links)
+    for (const MatchedEdge& edge : link.found.edges)
+      for (const EdgeId id : {edge.from, edge.to})
+        result.insert({shape.edges[id].first_vertex, shape.edges[id].last_vertex});
+  result.erase(VertexId());
+  return {result.begin(), result.end()};
 }
 
 Matches find_matches(const CadShape& shape, const std::vector<MatchedPair>& pairs, const FaceFlags& used) {
   Matches result;
-  result.matched_edges.assign(shape.edges.size(), 0);
-  result.matched_faces.assign(shape.faces.size(), 0);
   result.copied_faces.assign(shape.faces.size(), 0);
   std::vector<MatchedEdge> edges;
   std::vector<MatchedFace> faces;
@@ -408,13 +401,9 @@ Matches find_matches(const CadShape& shape, const std::vector<MatchedPair>& pair
             "match", fmt::format("`match` names {}, which is not among the faces to mesh", outline->name));
     }
     MatchLink link = MotionSearch(shape, std::move(a), std::move(b)).run(pair);
-    edges.insert(edges.end(), link.edges.begin(), link.edges.end());
-    for (const MatchedEdge& edge : link.edges)
-      result.matched_edges[edge.from] = result.matched_edges[edge.to] = 1;
-    if (pair.dimension == 2) {
-      faces.push_back(link.face);
-      result.matched_faces[link.face.from] = result.matched_faces[link.face.to] = 1;
-    }
+    const MatchedFace& found = link.found;
+    edges.insert(edges.end(), found.edges.begin(), found.edges.end());
+    if (pair.dimension == 2) faces.push_back(found);
     result.links.push_back(std::move(link));
   }
   result.edges = in_order(edges);

@@ -27,21 +27,17 @@ struct MatchedFace {
 /// A pair that users requested, and how far its nodes may lie from the moved ones.
 struct MatchLink {
   MatchedPair pair;
-  double tolerance = 0;            ///< the model's own, model units
-  MatchedFace face;                ///< for faces, else unset
-  std::vector<MatchedEdge> edges;  ///< of the faces, or the pieces of the edges
-  const RigidMotion& motion() const { return edges.front().motion; }
+  double tolerance = 0;  ///< the model's own, model units
+  MatchedFace found;     ///< for edges no faces, but the pieces of the edges
 };
 
 struct Matches {
   std::vector<MatchLink> links;    ///< as requested
   std::vector<MatchedEdge> edges;  ///< in the order in which nodes are copied: an edge is copied to once
   std::vector<MatchedFace> faces;  ///< likewise
-  EdgeFlags matched_edges;         ///< 1 = in some pair, or on the boundary of a face in some pair
-  FaceFlags matched_faces;         ///< 1 = in some pair
   FaceFlags copied_faces;          ///< 1 = has the mesh of another face
 
-  /// The vertices of the matched edges.
+  /// The vertices of the edges in some pair, or on the boundary of a face in some pair, ascending.
   std::vector<VertexId> vertices(const CadShape& shape) const;
 };
 

@@ -84,18 +84,8 @@ class RowLineFinder {
     return heights_of(*one) == heights_of(*other);
   }
 
-  /// The edges of a wire that have nodes; none if it has cracks or poles.
-  Coedges usable(FaceId face, const CadWire& wire) const {
-    Coedges result;
-    for (const Coedge& coedge : wire.coedges) {
-      if (coedge.internal || shape_.edges[coedge.edge].degenerate || !wire.ordered) return {};
-      if (tiny_.has(face, coedge.edge)) result.push_back(&coedge);
-    }
-    return result;
-  }
-
   void take_wire(FaceId face, const CadWire& wire) {
-    const Coedges coedges = usable(face, wire);
+    const Coedges coedges = coedges_left(shape_, tiny_, face, wire);
     const std::size_t n = coedges.size();
     const auto edge = [&](std::size_t k) { return coedges[k % n]->edge; };
     std::size_t first = 0;  // an edge that differs from the one before

@@ -5,9 +5,15 @@
 
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/ids.hpp"
+#include "mesher/edges/tiny_features.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
+
+/// An edge between two faces that are meshed as one. \param pieces see points_along()
+inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge, int pieces) {
+  return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)};
+}
 
 /// A model without what need not be meshed. Faces, edges and vertices keep their numbers.
 struct SimplifiedModel {

@@ -52,8 +52,7 @@ struct TubeFinder {
     for (const CadWire& wire : face.wires) {
       for (const Coedge& coedge : wire.coedges) {
         const CadEdge& edge = shape.edges[coedge.edge];
-        if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
-          return std::nullopt;
+        if (coedge.internal || !has_ends(edge)) return std::nullopt;
         if (is_small(edge, width)) {
           tube.rims.push_back(coedge.edge);
           has_neighbor |= std::any_of(edge.faces.begin(), edge.faces.end(),
@@ -144,8 +143,7 @@ class SliverFinder {
     const int first = static_cast<int>(edges_.size());
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge];
-      if (coedge.internal || edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists())
-        return false;
+      if (coedge.internal || !has_ends(edge)) return false;
       if (is_small(edge, width_)) continue;
       LongEdge& added = edges_.emplace_back();
       added.edge = coedge.edge;

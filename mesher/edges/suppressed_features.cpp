@@ -138,16 +138,15 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
     : shape_(shape),
       used_(used),
       reach_(reach),
-      slivers_(find_slivers(shape, used, reach)),
-      edges_(shape.edges.size()),
-      kept_faces_(shape.faces.size()),
-      own_(wanted_fine) {
+      slivers_{find_slivers(shape, used, reach), FaceFlags(shape.faces.size()), wanted_fine},
+      edges_(shape.edges.size()) {
   if (!(reach > 0)) return;
   EdgeFlags fine = wanted_fine;
   hold(held, fine);
-  for (const FaceId face : kept_faces_.ids()) {
+  for (const FaceId face : used.ids()) {
     const auto edges = shape.faces[face].edges();
-    kept_faces_[face] = std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) { return fine[edge] != 0; });
+    slivers_.kept[face] =
+        std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) { return fine[edge] != 0; });
   }
   choose(fine);
   while (keep_harmed()) {
@@ -164,14 +163,14 @@ void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine
     });
     fine[id] |= ends[id];
   }
-  for (const Sliver& sliver : slivers_) {
+  for (const Sliver& sliver : slivers_.slivers) {
     for (const EdgeId edge : shape_.faces[sliver.face].edges())
       if (ends[edge]) keep_face(sliver.face, "a node is placed at its boundary");
   }
 }
 
 TinyFeatures SuppressedFeatures::find(double length) const {
-  return find_tiny_features(shape_, used_, edges_, length, {&slivers_, &kept_faces_, &own_});
+  return find_tiny_features(shape_, used_, edges_, length, slivers_);
 }
 
 /// Takes edges, the shortest first, if all vertices that then share a node lie within reach of each other.
@@ -179,8 +178,7 @@ void SuppressedFeatures::choose(const EdgeFlags& fine) {
   std::vector<EdgeId> candidates;
   for (const EdgeId id : edges_.ids()) {
     const CadEdge& edge = shape_.edges[id];
-    if (!fine[id] && edge.is_used(used_) && !edge.degenerate && edge.first_vertex.exists() &&
-        edge.last_vertex.exists() && edge.length > 0 && is_small(edge, reach_))
+    if (!fine[id] && edge.is_used(used_) && has_ends(edge) && edge.length > 0 && is_small(edge, reach_))
       candidates.push_back(id);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -222,7 +220,7 @@ bool SuppressedFeatures::keep_harmed() {
   };
   const auto keep_slivers_at = [&](EdgeId edge, const std::string& why) {
     for (const FaceId face : shape_.edges[edge].faces) {
-      if (!tiny.cuts(face) || kept_faces_[face]) continue;
+      if (!tiny.cuts(face) || slivers_.kept[face]) continue;
       keep_face(face, why);
       any = true;
       for (const EdgeId other : shape_.faces[face].edges()) keep_edge(other, why);
@@ -254,7 +252,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
   bool any = false;
   std::set<VertexId> here;
   const auto keep = [&](FaceId other) {
-    if (!tiny.cuts(other) || kept_faces_[other]) return;
+    if (!tiny.cuts(other) || slivers_.kept[other]) return;
     any = true;
     keep_face(other, why);
   };
@@ -276,7 +274,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
 }
 
 void SuppressedFeatures::keep_face(FaceId face, const std::string& why) {
-  kept_faces_[face] = 1;
+  slivers_.kept[face] = 1;
   reasons_.try_emplace(face, why);
 }
 

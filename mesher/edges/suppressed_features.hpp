@@ -47,10 +47,8 @@ class SuppressedFeatures {
   const CadShape& shape_;
   const FaceFlags& used_;
   double reach_;
-  std::vector<Sliver> slivers_;
-  EdgeFlags edges_;       // 1 = becomes a point
-  FaceFlags kept_faces_;  // 1 = must not become an edge
-  EdgeFlags own_;         // 1 = keeps its nodes
+  SliverChoice slivers_;
+  EdgeFlags edges_;  // 1 = becomes a point
   std::map<EdgeId, std::string> kept_edges_;
   std::map<FaceId, std::string> reasons_;
 };

@@ -26,15 +26,11 @@ class Finder {
   TinyFeatures run(const EdgeFlags& collapse) {
     for (const EdgeId id : shape_.edges.ids()) {
       const CadEdge& edge = shape_.edges[id];
-      if (edge.degenerate || !edge.first_vertex.exists() || !edge.last_vertex.exists() || !(edge.length > 0))
-        continue;
-      if (!(edge.length < length_) && !collapse[id]) continue;
+      if (!has_ends(edge) || !(edge.length > 0) || (!(edge.length < length_) && !collapse[id])) continue;
       tiny_.collapsed_edges[id] = 1;
       join(edge.first_vertex, edge.last_vertex);
     }
-    if (slivers_.slivers != nullptr) {
-      for (const Sliver& sliver : *slivers_.slivers) zip(sliver);
-    }
+    for (const Sliver& sliver : slivers_.slivers) zip(sliver);
     for (const FaceId face : shape_.faces.ids()) {
       if (used_[face] && !tiny_.merged_faces[face]) merge(face);
     }
@@ -51,7 +47,7 @@ class Finder {
 
   /// Makes a sliver an edge, all of it or nothing.
   void zip(const Sliver& sliver) {
-    if (!used_[sliver.face] || (slivers_.kept != nullptr && (*slivers_.kept)[sliver.face])) return;
+    if (!used_[sliver.face] || is_set(slivers_.kept, sliver.face)) return;
     const auto is_open = [&](const auto& joint) { return tiny_.end(joint[0]) != tiny_.end(joint[1]); };
     const auto is_left = [&](EdgeId edge) { return !tiny_.collapsed_edges[edge]; };
     if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open) ||
@@ -76,12 +72,10 @@ class Finder {
     return {edge, reversed};
   }
 
-  bool owns(EdgeId edge) const { return slivers_.own != nullptr && (*slivers_.own)[edge]; }
-
   /// Whether both edges, or those whose nodes they have so far, keep their own nodes.
   bool keep_apart(EdgeId edge, EdgeId other) const {
     const EdgeId a = lender(edge).first, b = lender(other).first;
-    return a != b && owns(a) && owns(b);
+    return a != b && is_set(slivers_.own, a) && is_set(slivers_.own, b);
   }
 
   /// Gives an edge, and those that share its nodes already, the nodes of another one.
@@ -89,7 +83,7 @@ class Finder {
     auto [from, from_reversed] = lender(edge);
     auto [to, to_reversed] = lender(other);
     if (from == to) return;
-    if (owns(to)) std::swap(from, to);
+    if (is_set(slivers_.own, to)) std::swap(from, to);
     tiny_.edges[to] = from;
     tiny_.reversed_edges[to] = static_cast<char>(reversed ^ from_reversed ^ to_reversed);
   }
@@ -162,10 +156,8 @@ class Finder {
   std::vector<EdgeId> there_and_back(FaceId face, const CadWire& wire, MayGo&& may_go) const {
     std::vector<EdgeId> result;
     std::vector<Use> left;
-    for (const Coedge& coedge : wire.coedges) {
-      if (!wire.ordered || coedge.internal || shape_.edges[coedge.edge].degenerate) return {};
-      if (!tiny_.has(face, coedge.edge)) continue;
-      const Use use{tiny_.edges[coedge.edge], tiny_.forward(coedge)};
+    for (const Coedge* coedge : coedges_left(shape_, tiny_, face, wire)) {
+      const Use use{tiny_.edges[coedge->edge], tiny_.forward(*coedge)};
       if (!left.empty() && use.is_back_of(left.back()) && may_go(use.edge)) {
         result.push_back(use.edge);
         left.pop_back();
@@ -183,11 +175,22 @@ class Finder {
   const CadShape& shape_;
   const FaceFlags& used_;
   double length_;
-  SliverChoice slivers_;
+  const SliverChoice& slivers_;
   TinyFeatures tiny_;
 };
 
 }  // namespace
+
+std::vector<const Coedge*> coedges_left(const CadShape& shape, const TinyFeatures& tiny, FaceId face,
+                                        const CadWire& wire) {
+  std::vector<const Coedge*> result;
+  if (!wire.ordered) return result;
+  for (const Coedge& coedge : wire.coedges) {
+    if (coedge.internal || shape.edges[coedge.edge].degenerate) return {};
+    if (tiny.has(face, coedge.edge)) result.push_back(&coedge);
+  }
+  return result;
+}
 
 IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny) {
   IdVector<EdgeId, int> uses(shape.edges.size());

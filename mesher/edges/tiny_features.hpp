@@ -37,11 +37,16 @@ struct TinyFeatures {
   VertexId end(VertexId vertex) const { return vertex.exists() ? vertices[vertex] : VertexId(); }
 };
 
+/// The coedges of a wire of a face along which there are segments, in order; none if the wire has cracks or
+/// poles, or no order.
+std::vector<const Coedge*> coedges_left(const CadShape& shape, const TinyFeatures& tiny, FaceId face,
+                                        const CadWire& wire);
+
 /// Which faces become edges besides those narrower than the given length.
 struct SliverChoice {
-  const std::vector<Sliver>* slivers = nullptr;  ///< null = none
-  const FaceFlags* kept = nullptr;               ///< 1 = must not become an edge; null = any may
-  const EdgeFlags* own = nullptr;  ///< 1 = keeps its nodes: others may share them; null = any may share
+  std::vector<Sliver> slivers;
+  FaceFlags kept;  ///< 1 = must not become an edge; empty = any may
+  EdgeFlags own;   ///< 1 = keeps its nodes: others may share them; empty = any may share
 };
 
 /// How often the faces that are left use the nodes of each edge; 0 for edges that have those of another.
@@ -54,6 +59,11 @@ std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward 
 
 /// The farthest that an edge's curve lies from another one's, at samples between its ends.
 double distance_between(const CadEdge& edge, const CadEdge& other);
+
+/// Whether an edge runs from vertex to vertex, and is no pole.
+inline bool has_ends(const CadEdge& edge) {
+  return !edge.degenerate && edge.first_vertex.exists() && edge.last_vertex.exists();
+}
 
 /// Whether all points of an edge lie within `reach` of each other, by samples.
 bool is_small(const CadEdge& edge, double reach);

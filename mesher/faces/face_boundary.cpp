@@ -140,13 +140,7 @@ class BoundaryWalker {
     Vector3 leaving{0, 0, 0}, arriving{0, 0, 0};  // tangents at start and end, in the wire's direction
   };
 
-  int add_point(const Vector2& uv, int node) {
-    boundary_.uv.push_back(uv);
-    boundary_.points.push_back(nodes_.points[node]);
-    boundary_.nodes.push_back(node);
-    boundary_.angles.push_back(0);
-    return boundary_.size() - 1;
-  }
+  int add_point(const Vector2& uv, int node) { return boundary_.add(uv, nodes_.points[node], node); }
 
   /// First gives each coedge its own end points, then joins consecutive coedges.
   void walk_wire(const CadWire& wire) {
@@ -392,11 +386,7 @@ FaceBoundary halved(FaceBoundary boundary) {
     shift[i] = static_cast<int>(segments.size());
     segments.push_back(whole);
     if (whole.degenerate || whole.middle_node == -1) continue;
-    const int middle = boundary.size();
-    boundary.uv.push_back(whole.middle_uv);
-    boundary.points.push_back(whole.middle_point);
-    boundary.nodes.push_back(whole.middle_node);
-    boundary.angles.push_back(M_PI);
+    const int middle = boundary.add(whole.middle_uv, whole.middle_point, whole.middle_node, M_PI);
     segments.push_back(whole);
     FaceBoundary::Segment &first = segments[segments.size() - 2], &second = segments.back();
     first.b = second.a = middle;

@@ -40,6 +40,14 @@ struct FaceBoundary {
            nodes[s.b] == nodes[t.b];
   }
   int size() const { return static_cast<int>(uv.size()); }
+  /// \return the index of the new point.
+  int add(const Vector2& place, const Vector3& point, int node, double angle = 0) {
+    uv.push_back(place);
+    points.push_back(point);
+    nodes.push_back(node);
+    angles.push_back(angle);
+    return size() - 1;
+  }
 };
 
 /// Walks the wires of a face. \param cad_face the face, or a copy with other parametric

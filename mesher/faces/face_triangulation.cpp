@@ -5,6 +5,7 @@
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/spatial_sort.h>
 
@@ -15,9 +16,11 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include "geometry/base/place_text.hpp"
 #include "mesher/faces/face_problem.hpp"
@@ -29,19 +32,12 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
-using CdtFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-/// A triangle with a domain mark: -1 = not visited, 0 = outside, 1 = inside.
-template <class Base = CdtFaceBase>
-class MarkedFace : public Base {
- public:
-  using Base::Base;
-  template <class Triangulation>
-  struct Rebind_TDS {  // NOLINT(readability-identifier-naming): CGAL looks for it
-    using Other = MarkedFace<typename Base::template Rebind_TDS<Triangulation>::Other>;
-  };
-  int mark = -1;
-};
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, MarkedFace<>>;
+/// Where a triangle lies, once it is known.
+using IsInside = std::optional<bool>;
+using FaceBase =
+    CGAL::Triangulation_face_base_with_info_2<IsInside, Kernel,
+                                              CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
 using Cdt =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::No_constraint_intersection_tag>;
 
@@ -85,8 +81,7 @@ class Triangulator {
     std::vector<std::array<int, 3>> triangles;
     for (auto f = cdt_.finite_faces_begin(); f != cdt_.finite_faces_end(); ++f) {
       check_();
-      if (f->mark == 1)
-        triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+      if (*f->info()) triangles.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
     }
     return triangles;
   }
@@ -172,15 +167,15 @@ class Triangulator {
   /// Marks triangles as inside or outside by nesting, from the infinite face inward.
   void mark_domain() {
     std::vector<Cdt::Face_handle> stack{cdt_.infinite_face()};
-    cdt_.infinite_face()->mark = 0;
+    cdt_.infinite_face()->info() = false;
     while (!stack.empty()) {
       check_();
       const Cdt::Face_handle f = stack.back();
       stack.pop_back();
       for (int i = 0; i < 3; ++i) {
         const Cdt::Face_handle neighbor = f->neighbor(i);
-        if (neighbor->mark >= 0) continue;
-        neighbor->mark = switches_side(f, i) ? 1 - f->mark : f->mark;
+        if (neighbor->info()) continue;
+        neighbor->info() = *f->info() != switches_side(f, i);
         stack.push_back(neighbor);
       }
     }
@@ -296,11 +291,8 @@ class CrackOpener {
         corner = corner < 0 ? -1 - corner : corner < inner_start_ ? corner : corner + shift;
     }
     for (const int point : copies_) {
-      boundary_.uv.push_back(boundary_.uv[point]);
-      boundary_.points.push_back(boundary_.points[point]);
-      boundary_.nodes.push_back(boundary_.nodes[point]);
+      boundary_.add(boundary_.uv[point], boundary_.points[point], boundary_.nodes[point]);
       boundary_.angles[point] = 0;
-      boundary_.angles.push_back(0);
     }
   }
 
@@ -336,18 +328,17 @@ class CrackOpener {
   std::vector<int> copies_;
 };
 
-/// Sets the targets of all parameter points of a pole to one point.
+/// Sets the targets of all parameter points of a pole to the first one. \param target each point itself
 void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
-  const auto root = [&](int i) {
-    while (target[i] != i) i = target[i];
-    return i;
-  };
-  for (const auto& segment : boundary.segments) {
-    if (!segment.degenerate) continue;
-    const int a = root(segment.a), b = root(segment.b);
-    target[std::max(a, b)] = std::min(a, b);
+  boost::disjoint_sets_with_storage<> poles(target.size());
+  for (const auto& segment : boundary.segments)
+    if (segment.degenerate) poles.union_set(segment.a, segment.b);
+  std::vector<int> first(target.size(), -1);
+  for (int& i : target) {
+    int& point = first[poles.find_set(i)];
+    if (point < 0) point = i;
+    i = point;
   }
-  for (int& i : target) i = root(i);
 }
 
 /// Replaces the corners by their targets. Triangles with two corners in a pole vanish, and their neighbors

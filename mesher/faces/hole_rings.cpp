@@ -213,12 +213,7 @@ void place_line(const FaceBoundary& boundary, const Loop& loop, const Part& part
     return k < covered ? segment_of(boundary, loop, part.first + k).a : first_new + k - covered;
   };
   const auto place = [&](int k) {
-    if (end(k) == inside.size()) {
-      inside.nodes.push_back(-1);
-      inside.uv.emplace_back();
-      inside.points.emplace_back();
-      inside.angles.push_back(0);
-    }
+    if (end(k) == inside.size()) inside.add(Vector2::Zero(), Vector3::Zero(), -1);
     const auto& node = hole.points[hole.outer[stride * k]];
     inside.nodes[end(k)] = HoleRings::node(hole.first + stride * k);
     inside.uv[end(k)] = node.uv;

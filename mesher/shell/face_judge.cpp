@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "mesher/faces/grid_waste.hpp"
+#include "mesher/faces/face_grid.hpp"
 #include "mesher/mesh/criteria.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 

@@ -177,13 +177,13 @@ void list_matches(const Matches& matches, const BoundaryNodes& nodes, const Shel
                   ShellMesh& mesh) {
   for (const MatchLink& link : matches.links) {
     Pairs pairs;
-    if (link.pair.dimension == 2) add_pairs(link.face, numbering, mesh, pairs);
-    for (const MatchedEdge& edge : link.edges)
+    if (link.pair.dimension == 2) add_pairs(link.found, numbering, mesh, pairs);
+    for (const MatchedEdge& edge : link.found.edges)
       if (link.pair.dimension == 1) add_pairs(edge, nodes, numbering, mesh, pairs);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     mesh.matches.push_back(
-        {link.pair.dimension, {link.pair.first, link.pair.second}, link.motion(), std::move(pairs)});
+        {link.pair.dimension, {link.pair.first, link.pair.second}, link.found.motion, std::move(pairs)});
   }
   // A node off the geometry takes its partner off it too, and that one the next.
   for (std::size_t round = 0; round <= mesh.matches.size(); ++round) {

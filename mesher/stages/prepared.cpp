@@ -140,10 +140,11 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
   meshed = leave_out_tiny(suppressed, plan);
   const FaceOutlines outlines = find_outlines(*this, plan.tiny);
-  rows = find_rows(*this, outlines, plan);
-  gridded.resize(shape.faces.size());
-  for (const FaceId face : gridded.ids())
-    gridded[face] = options.sizing.aspect > 1 && outlines[face].is_filled();
+  GridRows rows = find_rows(*this, outlines, plan);
+  unsized = {suppressed.edges(), plan.tiny.merged_faces, std::move(rows.divided), std::move(rows.layered),
+             FaceFlags(shape.faces.size())};
+  for (const FaceId face : outlines.ids())
+    unsized.gridded[face] = options.sizing.aspect > 1 && outlines[face].is_filled();
 }
 
 FaceFlags Prepared::leave_out_tiny(const SuppressedFeatures& now, SamplingPlan& to) const {
@@ -163,9 +164,7 @@ SizingField sizes_for(const Prepared& prepared, ExecutionContext& context) {
   for (const auto& [vertex, layers] : prepared.plan.rows.steps)
     sizing.layers.vertices.emplace(vertex.number(), layers);
   const ElementBudget budget(prepared.model, sizing, prepared.asked, context);
-  SizingField field = SizingField::build(prepared.model, sizing, context,
-                                         {prepared.suppressed.edges(), prepared.plan.tiny.merged_faces,
-                                          prepared.rows.divided, prepared.rows.layered, prepared.gridded});
+  SizingField field = SizingField::build(prepared.model, sizing, context, prepared.unsized);
   budget.check(field);
   return field;
 }

@@ -58,8 +58,7 @@ struct Prepared {
   Protection protection;
   SuppressedFeatures suppressed;  ///< to begin with
   FaceFlags meshed;               ///< to begin with, see leave_out_tiny()
-  GridRows rows;
-  FaceFlags gridded;  ///< 1 = by its outline, rows of quads run over the face from side to side
+  UnsizedFeatures unsized;
 };
 
 /// The sizing field. Suppressed features request no sizes. Throws Error (usage) if the sizes exceed the

@@ -73,14 +73,10 @@ ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary&
 
 /// Those inside joined faces too.
 std::vector<ShellMesh::CrossedEdge> crossed_edges(const Prepared& prepared,
-                                                  const std::vector<EdgeId>& crossed) {
+                                                  const std::vector<EdgeId>& edges) {
   constexpr int pieces = 32;
   std::vector<ShellMesh::CrossedEdge> result = prepared.simple.inner;
-  for (const EdgeId id : crossed) {
-    const CadEdge& edge = prepared.shape.edges[id];
-    result.push_back(
-        {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)});
-  }
+  for (const EdgeId edge : edges) result.push_back(crossed_edge(prepared.shape.edges[edge], pieces));
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
