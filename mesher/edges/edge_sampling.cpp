@@ -293,17 +293,17 @@ std::vector<double> shares_with_heads(const CountTable& table, int segments, con
 }
 
 /// Throws Error (usage) if a bias makes segments so short that their ends are one point.
-void check_bias(const CadEdge& edge, const EdgeSpacing& spacing, const std::vector<double>& shares) {
-  double least = 1;
-  for (std::size_t k = 1; k < shares.size(); ++k) least = std::min(least, shares[k] - shares[k - 1]);
-  if (!(least * edge.length < Precision::Confusion())) return;
+void check_bias(const CadEdge& edge, const PrescribedEdge& divided) {
+  const double shortest = divided.shortest(edge.length);
+  if (divided.shares.empty() || !(shortest < Precision::Confusion())) return;
+  const EdgeSpacing& spacing = divided.spacing;
   const bool is_both = spacing.bias == 1;
   const char* name = is_both ? "bias_both" : "bias";
   throw usage_error(
-      name, fmt::format("`{}` {:g} on Edge{} makes the shortest of its {} segments {:.2g} mm long: "
-                        "use a ratio nearer to 1, or `segments` with a smaller number",
-                        name, is_both ? spacing.bias_both : spacing.bias, edge.number, shares.size() - 1,
-                        least * edge.length));
+      name,
+      fmt::format("`{}` {:g} on Edge{} makes the shortest of its {} segments {:.2g} mm long: "
+                  "use a ratio nearer to 1, or `segments` with a smaller number",
+                  name, is_both ? spacing.bias_both : spacing.bias, edge.number, divided.segments, shortest));
 }
 
 EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan, const EdgeTables& tables,
@@ -311,8 +311,10 @@ EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan, co
   EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
     if (!plan.prescribes(i) || counts[i] == 0) continue;
-    shares[i] = plan.prescribed[i]->shares_of(counts[i]);
-    check_bias(shape.edges[i], plan.prescribed[i]->spacing, shares[i]);
+    const PrescribedEdge& wanted = *plan.prescribed[i];
+    const PrescribedEdge divided{counts[i], wanted.shares_of(counts[i]), wanted.spacing};
+    check_bias(shape.edges[i], divided);
+    shares[i] = divided.shares;
   }
   for (const auto& [edge, heads] : plan.rows.heads)
     if (counts[edge] > 0) shares[edge] = shares_with_heads(tables[edge], counts[edge], heads);

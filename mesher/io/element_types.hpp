@@ -2,6 +2,7 @@
 /// The elements of mesh files, and what each format calls them.
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace quadrille {
 
@@ -46,11 +47,12 @@ constexpr const ElementType* find_element_type(int ElementType::*format, long lo
   return nullptr;
 }
 
-/// The type of points, lines or shell elements (dimension 0, 1 or 2) with so many nodes, which must exist.
+/// The type of points, lines or shell elements (dimension 0, 1 or 2) with so many nodes. Throws
+/// std::logic_error where there is none.
 constexpr const ElementType& element_type(int dimension, int nodes) {
-  const ElementType* type = element_types;
-  while (dimension_of(type->shape) != dimension || type->nodes != nodes) ++type;
-  return *type;
+  for (const ElementType& type : element_types)
+    if (dimension_of(type.shape) == dimension && type.nodes == nodes) return type;
+  throw std::logic_error("no element of this dimension has so many nodes");
 }
 
 }  // namespace quadrille

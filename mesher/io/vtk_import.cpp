@@ -20,10 +20,12 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
 #include <limits>
-#include <numeric>
+#include <span>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/module_loader.hpp"
@@ -183,11 +185,8 @@ class CellImport {
                                   "quads are read",
                                   cell, count));
       default:
-        if (const ElementType* known = find_element_type(&ElementType::vtk, type)) {
-          std::vector<int> places(known->kept_nodes());
-          std::iota(places.begin(), places.end(), 0);
-          return add(cell, known->shape, places);
-        }
+        if (const ElementType* known = find_element_type(&ElementType::vtk, type))
+          return add(cell, known->shape, std::span(in_order).first(known->kept_nodes()));
         throw failure(
             "", fmt::format("cell {} (counted from 0) is of VTK's type {}: only triangles, quads, lines "
                             "and points are read",
@@ -196,7 +195,12 @@ class CellImport {
   }
 
  private:
-  void add(vtkIdType cell, ElementShape shape, const std::vector<int>& places) {
+  static constexpr std::array<int, 8> in_order{0, 1, 2, 3, 4, 5, 6, 7};
+
+  void add(vtkIdType cell, ElementShape shape, std::initializer_list<int> places) {
+    add(cell, shape, std::span(places.begin(), places.size()));
+  }
+  void add(vtkIdType cell, ElementShape shape, std::span<const int> places) {
     FileElement element;
     element.number = cell + 1;
     element.shape = shape;
