@@ -272,10 +272,6 @@ std::vector<Setting> make_table() {
       {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
        Setting::EntryList{set_kept, kept_of}},
-      {"match", "match", "Match", none, mesh, none, 0, 0, false, "none",
-       "pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as "
-       "Face3=Face7,Edge2=Edge9",
-       Setting::EntryList{set_matches, matches_of}},
       {"nodes_at", "node", "NodesAt", none, mesh, none, 0, 0, false, "none",
        "a place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in "
        "mm; "
@@ -515,16 +511,6 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
       kept.insert(pieces.begin(), pieces.end());
     }
   }
-  for (MatchedPair& pair : sizing.matches)
-    for (int* number : {&pair.first, &pair.second}) {
-      const std::vector<int> pieces = pieces_of(entry("match"), pair.dimension, *number, model);
-      if (pieces.size() != 1)
-        throw refused(entry("match"),
-                      fmt::format("names {}, which `imprint` cuts or drops: import the cut model "
-                                  "and name its pieces",
-                                  entity_name(pair.dimension, *number)));
-      *number = pieces.front();
-    }
   const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
   for (const int dimension : {2, 1, 0})
     rename(entry("layers"), dimension, model, sizing.layers.of(dimension), finer);
@@ -566,8 +552,6 @@ void check(const Settings& settings, const CadModel& model) {
     check_all(entry("sizes"), keys(*sizes_by_name(sizing)[dimension]), dimension);
   check_all(entry("keep"), sizing.kept_faces, 2);
   check_all(entry("keep"), sizing.kept_edges, 1);
-  for (const auto& [dimension, first, second] : sizing.matches)
-    check_all(entry("match"), std::array{first, second}, dimension);
   for (const int dimension : {2, 1, 0})
     check_all(entry("layers"), keys(sizing.layers.of(dimension)), dimension);
   for (const auto& [edge, spacing] : sizing.spacings) {

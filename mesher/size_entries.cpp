@@ -167,27 +167,6 @@ Entries kept_of(const SizingOptions& sizing) {
   return entries;
 }
 
-void set_matches(SizingOptions& sizing, const Entries& entries) {
-  std::vector<MatchedPair> matches;
-  for (const std::string& entry : entries) {
-    for (const std::string_view text : split(entry)) {
-      const auto [name, other_name] = sides_of_equals(text);
-      const NamedEntity first = entity_of(name), second = entity_of(other_name);
-      if (first.dimension < 1 || first.dimension != second.dimension || first.number == second.number)
-        refuse("pairs of faces or edges such as Face3=Face7,Edge2=Edge9", entry);
-      matches.push_back({first.dimension, first.number, second.number});
-    }
-  }
-  sizing.matches = std::move(matches);
-}
-
-Entries matches_of(const SizingOptions& sizing) {
-  Entries entries;
-  for (const auto& [dimension, first, second] : sizing.matches)
-    entries.push_back(entity_name(dimension, first) + "=" + entity_name(dimension, second));
-  return entries;
-}
-
 void set_segments(SizingOptions& sizing, const Entries& entries) {
   for (auto& [edge, spacing] : sizing.spacings) spacing.segments = 0;
   take_edges(entries, "whole numbers from 1 to a million such as Edge4=20", [&](int edge, double value) {

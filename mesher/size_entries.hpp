@@ -23,10 +23,6 @@ Entries kept_of(const SizingOptions& sizing);
 void set_segments(SizingOptions& sizing, const Entries& entries);
 Entries segments_of(const SizingOptions& sizing);
 
-/// "Face3=Face7", "Edge2=Edge9"; one entry may hold several, separated by commas.
-void set_matches(SizingOptions& sizing, const Entries& entries);
-Entries matches_of(const SizingOptions& sizing);
-
 /// "Edge4=1.2"; one entry may hold several, separated by commas.
 void set_bias(SizingOptions& sizing, const Entries& entries);
 Entries bias_of(const SizingOptions& sizing);

@@ -20,7 +20,6 @@ std::vector<std::string> other_text(const Setting& setting) {
       {"bias", "Edge4=1.2"},
       {"bias_both", "Edge4=1.2"},
       {"keep", "Edge7"},
-      {"match", "Face3=Face7"},
       {"nodes_at", "Tip=1,-2.5,3"},
       {"order", "1"},
       {"nodes", "9"},

@@ -100,9 +100,7 @@ std::string face_name(const Setting& setting, const py::handle& face) {
 }
 
 /// Entries as texts. They are given as texts, or as a dict that maps names to one or more numbers:
-/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}, or to another name. Those of numbers alone may be tuples in a
-/// list,
-/// [(1, 2, 3)], and so may pairs of names: [("Face3", "Face7")].
+/// {"Edge4": 20}, {"Edge4": (0.1, 1.2, 6)}. Those of numbers alone may be tuples in a list, [(1, 2, 3)].
 std::vector<std::string> entries(const Setting& setting, const py::handle& value) {
   if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
     throw wrong_type(setting, value);
@@ -122,13 +120,7 @@ std::vector<std::string> entries(const Setting& setting, const py::handle& value
       texts.push_back(fmt::format("{}={}", name.cast<std::string>(), numbers(own)));
     return texts;
   }
-  for (const py::handle entry : value.cast<py::iterable>()) {
-    const bool is_pair = py::isinstance<py::sequence>(entry) && !py::isinstance<py::str>(entry) &&
-                         py::len(entry) == 2 && py::isinstance<py::str>(entry.cast<py::sequence>()[0]) &&
-                         py::isinstance<py::str>(entry.cast<py::sequence>()[1]);
-    texts.push_back(is_pair ? fmt::format("{}", fmt::join(entry.cast<std::vector<std::string>>(), "="))
-                            : numbers(entry));
-  }
+  for (const py::handle entry : value.cast<py::iterable>()) texts.push_back(numbers(entry));
   return texts;
 }
 

@@ -188,58 +188,8 @@ std::vector<ShellMesh::Group> groups_in(const py::handle& list) {
   return result;
 }
 
-/// A list of dicts, one per pair of faces or edges with the same nodes.
-py::list matches_of(const py::object& self) {
-  py::list result;
-  for (const ShellMesh::Match& match : mesh_of(self).mesh.matches) {
-    const char* kind = match.dimension == 2 ? "Face" : "Edge";
-    const Eigen::Matrix4d matrix = match.motion.matrix();
-    py::array_t<double> values({4, 4});
-    for (int i = 0; i < 4; ++i)
-      for (int k = 0; k < 4; ++k) values.mutable_at(i, k) = matrix(i, k);
-    py::array_t<int> nodes({static_cast<py::ssize_t>(match.nodes.size()), py::ssize_t{2}});
-    for (std::size_t i = 0; i < match.nodes.size(); ++i)
-      for (const py::ssize_t k : {0, 1}) nodes.mutable_at(i, k) = match.nodes[i][k];
-    py::dict entry;
-    entry["from"] = fmt::format("{}{}", kind, match.entities[0]);
-    entry["to"] = fmt::format("{}{}", kind, match.entities[1]);
-    entry["matrix"] = values;
-    entry["nodes"] = nodes;
-    result.append(entry);
-  }
-  return result;
-}
-
-/// (translation, center, axis, angle)
-using MotionState = std::tuple<std::array<double, 3>, std::array<double, 3>, std::array<double, 3>, double>;
-using MatchState = std::tuple<int, std::array<int, 2>, MotionState, std::vector<std::array<int, 2>>>;
-
-std::vector<MatchState> state_of_matches(const ShellMesh& mesh) {
-  const auto values = [](const Vector3& v) { return std::array{v.x(), v.y(), v.z()}; };
-  std::vector<MatchState> result;
-  for (const ShellMesh::Match& match : mesh.matches) {
-    const RigidMotion& motion = match.motion;
-    result.emplace_back(
-        match.dimension, match.entities,
-        MotionState(values(motion.translation), values(motion.center), values(motion.axis), motion.angle),
-        match.nodes);
-  }
-  return result;
-}
-
-std::vector<ShellMesh::Match> matches_in(const py::handle& state) {
-  const auto vector = [](const std::array<double, 3>& v) { return Vector3(v[0], v[1], v[2]); };
-  std::vector<ShellMesh::Match> result;
-  for (auto& [dimension, entities, motion, nodes] : state.cast<std::vector<MatchState>>()) {
-    const auto& [translation, center, axis, angle] = motion;
-    result.push_back(
-        {dimension, entities, {vector(translation), vector(center), vector(axis), angle}, std::move(nodes)});
-  }
-  return result;
-}
-
 /// What pickle stores: the constructor's arguments, face statuses, thicknesses, groups, extra groups,
-/// placed nodes, the minimum size, and matches.
+/// placed nodes, and the minimum size.
 py::tuple state_of(const py::object& self) {
   py::list varying;
   for (const ShellMesh::VaryingThickness& entry : mesh_of(self).mesh.varying_thicknesses)
@@ -257,7 +207,7 @@ py::tuple state_of(const py::object& self) {
                         self.attr("face_ids"), self.attr("triangle_face_ids"), self.attr("segments"),
                         self.attr("corners"), faces, mesh_of(self).mesh.thicknesses,
                         list_of(mesh_of(self).mesh.groups), varying, list_of(mesh_of(self).mesh.extra_groups),
-                        placed, mesh_of(self).mesh.size_min, state_of_matches(mesh_of(self).mesh));
+                        placed, mesh_of(self).mesh.size_min);
 }
 
 PythonMesh from_state(const py::tuple& state) {
@@ -271,7 +221,6 @@ PythonMesh from_state(const py::tuple& state) {
                                  q_min, seconds, off, off_max, filled});
   }
   result.mesh.size_min = state[13].cast<double>();
-  result.mesh.matches = matches_in(state[14]);
   result.mesh.thicknesses = state[8].cast<std::vector<double>>();
   result.mesh.groups = groups_in(state[9]);
   result.mesh.extra_groups = groups_in(state[11]);
@@ -416,10 +365,6 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
                "Groups, segments and corners are kept. Repairs and losses give a warning. Raises\n"
                "quadrille.Error.")
                .c_str())
-      .def_property_readonly(
-          "matches", &matches_of,
-          "The pairs of `match`: dicts with the names `from` and `to`, the motion's `matrix` "
-          "(4, 4), and the `nodes` (n, 2), indices of points.")
       .def_property_readonly("fidelity", &fidelity_of,
                              "Of a mesh that remesh() made: a dict of mesh_from_surface and "
                              "surface_from_mesh (dicts of distance "

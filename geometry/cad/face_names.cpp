@@ -25,7 +25,7 @@ bool says_something(const std::string& name) {
 }  // namespace
 
 bool is_own_group(const std::string& name) {
-  static const std::regex own("(Face|Edge|Vertex|SolidFace|Thickness|Match)[0-9].*", std::regex::icase);
+  static const std::regex own("(Face|Edge|Vertex|SolidFace|Thickness)[0-9].*", std::regex::icase);
   return std::regex_match(name, own);
 }
 

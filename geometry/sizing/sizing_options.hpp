@@ -74,13 +74,6 @@ struct NodePlace {
   Vector3 point{0, 0, 0};  ///< where, in millimeters
 };
 
-/// Two CAD faces, or two CAD edges, that get the same nodes.
-struct MatchedPair {
-  int dimension = 2;  ///< 2: faces, 1: edges
-  int first = 0;      ///< number of the one whose nodes are copied, from 1
-  int second = 0;     ///< number of the other
-};
-
 /// CAD faces, edges and vertices by number.
 template <class Value>
 struct ByElement {
@@ -130,7 +123,6 @@ struct SizingOptions {
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is requested
   std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
   std::set<int> kept_edges;                  ///< CAD edges that are not suppressed, and that no quad crosses
-  std::vector<MatchedPair> matches;          ///< faces and edges that get the same nodes as others
   std::vector<NodePlace> nodes;              ///< places on the model that get nodes
   std::filesystem::path size_field;          ///< external .vdb grid that caps the size; empty = none
   double size_field_scale = 1;               ///< factor on the sizes in it

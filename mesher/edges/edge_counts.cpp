@@ -82,18 +82,15 @@ FixedChords tie_chords(const CadShape& shape, const CountTargets& targets, const
     effective.push_back(std::max(targets.wanted[edge], 1.0 * targets.least[edge]));
   FixedChords chords{Chords(effective), targets.fixed};
   chords.fixed.resize(effective.size());
-  const auto unite = [&](const SideEdge& a, const SideEdge& b) {
-    if (!chords.tie(a, b, std::numeric_limits<double>::infinity()))
+  for (const EdgeId edge : effective.ids()) {
+    const EdgeId same = tiny.edges[edge];
+    if (same != edge && !chords.tie({same, true}, {edge, !tiny.reversed_edges[edge]},
+                                    std::numeric_limits<double>::infinity()))
       throw usage_error("segments",
                         fmt::format("`segments` gives different numbers to Edge{} and Edge{}, which "
                                     "have the same nodes",
-                                    shape.edges[a.edge].number, shape.edges[b.edge].number));
-  };
-  for (const EdgeId edge : effective.ids()) {
-    const EdgeId same = tiny.edges[edge];
-    if (same != edge) unite({same, true}, {edge, !tiny.reversed_edges[edge]});
+                                    shape.edges[same].number, shape.edges[edge].number));
   }
-  for (const auto& [a, b] : targets.tied) unite(a, b);
   for (const FaceId face : sides.ids()) {
     const auto& facing = sides[face].facing;
     bool fits = std::none_of(facing.begin(), facing.end(),

@@ -2,8 +2,6 @@
 /// Chooses the number of segments of each edge. Internal.
 
 #include <functional>
-#include <utility>
-#include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/chords.hpp"
@@ -14,8 +12,6 @@ namespace quadrille {
 
 /// What the counts of the edges of the faces used should be.
 struct CountTargets {
-  std::vector<std::pair<SideEdge, SideEdge>>
-      tied;                              ///< edges that get the same count, whatever their wanted counts
   int stride = 1;                        ///< see BoundaryNodes::stride
   IdVector<EdgeId, double> wanted;       ///< segments by the sizing field, in the mesh that is recombined
   IdVector<EdgeId, int> least;           ///< least number in the mesh that is recombined; 0 = edge not used

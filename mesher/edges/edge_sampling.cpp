@@ -159,7 +159,6 @@ class TargetFinder {
             stride * least_segments(plan_.tiny.closed(edge), turning, shared_ends[i], inner[i], stride));
       }
     }
-    share_targets();
     return std::move(demand_);
   }
 
@@ -191,24 +190,6 @@ class TargetFinder {
     if (field_.options().size_min > 0) of_arc = std::min(of_arc, most_at_least_size(i, stride_));
     least = std::max(least, to_int(of_arc));
     of_grids = std::max(of_grids, to_int(std::ceil(stride_ * wanted - nearly)));
-  }
-
-  /// Edges with the same nodes get the larger of their wanted counts.
-  void share_targets() {
-    const auto take = [&](EdgeId to, EdgeId from) {
-      const auto raise = [&](auto& values) { values[to] = std::max(values[to], values[from]); };
-      if (targets_.fixed[to] != 0 && targets_.fixed[from] != 0) return;  // choose_counts() compares them
-      raise(targets_.least);
-      raise(targets_.least_of_grids);
-      raise(targets_.wanted);
-      raise(targets_.fixed);
-      raise(targets_.even);
-    };
-    for (auto copy = plan_.matched.rbegin(); copy != plan_.matched.rend(); ++copy) take(copy->from, copy->to);
-    for (const MatchedEdge& copy : plan_.matched) {
-      take(copy.to, copy.from);
-      targets_.tied.push_back({{copy.from, true}, {copy.to, !copy.reversed}});
-    }
   }
 
   CountTable table_of(EdgeId id) {
@@ -387,8 +368,6 @@ class NodePlacer {
       result_.edges[i].kept = division_.spacing.kept[chords.of(i)] != 0;
       if (counts[i] > 0) place_nodes(i, check);
     }
-    for (const MatchedEdge& copy : plan_.matched)
-      result_.edges[copy.from].matched = result_.edges[copy.to].matched = true;
     return std::move(result_);
   }
 
@@ -458,39 +437,6 @@ class NodePlacer {
   BoundaryNodes result_;
 };
 
-/// The parameter of a point on a curve, searched from another one by Newton's method.
-double parameter_at(const EdgeCurve& curve, const CadEdge& edge, double t, const Vector3& point) {
-  constexpr int most_steps = 30;
-  for (int i = 0; i < most_steps; ++i) {
-    const Vector3 along = curve.derivative(t);
-    const double step = along.dot(point - curve.point(t)) / std::max(along.squaredNorm(), 1e-300);
-    const double next = std::clamp(t + step, edge.first, edge.last);
-    if (std::abs(next - t) <= 1e-14 * (edge.last - edge.first)) break;
-    t = next;
-  }
-  return t;
-}
-
-/// Moves the nodes of matched edges to the images of their partners' nodes.
-void copy_nodes(const CadShape& shape, const std::vector<MatchedEdge>& matched, BoundaryNodes& nodes) {
-  for (const MatchedEdge& copy : matched) {
-    const BoundaryNodes::Edge& from = nodes.edges[copy.from];
-    BoundaryNodes::Edge& to = nodes.edges[copy.to];
-    if (from.segments() != to.segments())
-      throw failure("match",
-                    fmt::format("`match` cannot give Edge{} the nodes of Edge{}, since one of them is "
-                                "left out: use `keep_features`, or a smaller `merge_tiny`",
-                                shape.edges[copy.to].number, shape.edges[copy.from].number));
-    const EdgeCurve curve(shape.edges[copy.to]);
-    for (int k = 1; k < to.segments(); ++k) {
-      const Vector3& source = nodes.points[from.nodes[copy.reversed ? from.segments() - k : k]];
-      Vector3& point = nodes.points[to.nodes[k]];
-      point = copy.motion(source);
-      to.parameters[k] = parameter_at(curve, shape.edges[copy.to], to.parameters[k], point);
-    }
-  }
-}
-
 /// Gives edges that share the nodes of another edge those, and lets faces end before their spikes.
 void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
   for (const EdgeId i : nodes.edges.ids()) {
@@ -533,7 +479,6 @@ BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int 
     division = divide_edges(shape, plan, demand, sides);
   }
   BoundaryNodes nodes = NodePlacer(shape, plan, demand, division).run(used, context);
-  copy_nodes(shape, plan.matched, nodes);
   borrow_nodes(plan.tiny, nodes);
   nodes.plans = plan_faces(shape, std::move(sides), plan, nodes);
   return nodes;

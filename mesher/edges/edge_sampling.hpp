@@ -15,7 +15,6 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_plan.hpp"
-#include "mesher/edges/matching.hpp"
 #include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
@@ -29,7 +28,6 @@ struct BoundaryNodes {
     int stride = 1;                  ///< segments for each one of the mesh that is recombined
     bool divided = false;            ///< users prescribe the number of segments on its chord
     bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
-    bool matched = false;            ///< its nodes are those of another edge, moved, or the other way round
     bool borrows = false;            ///< its nodes are those of another edge (TinyFeatures)
     int segments() const { return static_cast<int>(nodes.size()) - 1; }
   };
@@ -83,8 +81,6 @@ struct SamplingPlan {
   TinyFeatures tiny;
   PrescribedEdges prescribed;  ///< user divisions; may be empty
   RowLines rows;               ///< along which faces get rows, and where these end on edges
-  /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
-  std::vector<MatchedEdge> matched;
 
   bool prescribes(EdgeId edge) const { return !prescribed.empty() && prescribed[edge].has_value(); }
   /// Whether the nodes of an edge lie near equal parts of its chord.

@@ -156,20 +156,6 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
     }
 }
 
-/// Writes two sets for each pair of faces or edges with the same nodes: node i of one is the partner of node
-/// i of the other. Abaqus sorts sets without UNSORTED.
-void write_matches(const OutputMesh& mesh, TextWriter& out) {
-  int number = 0;
-  for (const ShellMesh::Match& match : mesh.matches()) {
-    ++number;
-    for (const int side : {0, 1}) {
-      std::vector<int> nodes;
-      for (const auto& pair : match.nodes) nodes.push_back(mesh.number(pair[side]));
-      write_set("NSET", fmt::format("Match{}_{}, UNSORTED", number, side == 0 ? 'a' : 'b'), nodes, out);
-    }
-  }
-}
-
 /// Writes a surface for each set of elements. SPOS is the side to which the element normals point.
 void write_surfaces(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
   for (std::size_t i = 0; i < mesh.groups(2).size(); ++i) {
@@ -237,7 +223,6 @@ void write_text(const OutputMesh& mesh, const WriteOptions& options, const std::
   const SetNames names(mesh);
   write_element_sets(mesh, options.element, names, out);
   write_node_sets(mesh, names, out);
-  write_matches(mesh, out);
   write_side_sets(mesh, options.element, names, out);
   // Plane and axisymmetric elements are loaded on their sides.
   if (!lies_in_plane(options.element)) write_surfaces(mesh, names, out);

@@ -113,10 +113,6 @@ ShellMesh scaled(ShellMesh mesh, double factor) {
     varying.thickest *= factor;
     for (double& thickness : varying.thicknesses) thickness *= factor;
   }
-  for (ShellMesh::Match& match : mesh.matches) {
-    match.motion.translation *= factor;
-    match.motion.center *= factor;
-  }
   return mesh;
 }
 

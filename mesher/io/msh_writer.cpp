@@ -99,26 +99,6 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
   out << "$EndPhysicalNames\n";
 }
 
-/// Writes the section $Periodic: the second of two matched faces or edges first, then the one that is moved
-/// there. Writes nothing if there are none. \param version4 for version 4.1 of the format
-void write_periodic(const OutputMesh& mesh, bool version4, TextWriter& out) {
-  std::vector<ShellMesh::Match> matches = mesh.matches();
-  // Without groups of edges the file has no edges.
-  std::erase_if(matches, [&](const auto& match) { return match.dimension == 1 && mesh.count(1) == 0; });
-  if (matches.empty()) return;
-  out << "$Periodic\n" << matches.size() << '\n';
-  for (const ShellMesh::Match& match : matches) {
-    out << match.dimension << ' ' << match.entities[1] << ' ' << match.entities[0] << '\n';
-    const Eigen::Matrix4d matrix = match.motion.matrix();
-    out << (version4 ? "16" : "Affine");
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column) out << fmt::format(" {}", matrix(row, column));
-    out << '\n' << match.nodes.size() << '\n';
-    for (const auto& [from, to] : match.nodes) out << mesh.number(to) << ' ' << mesh.number(from) << '\n';
-  }
-  out << "$EndPeriodic\n";
-}
-
 /// Writes the numbers of an element's nodes and the end of the line.
 void write_msh_nodes(const OutputMesh& mesh, const ElementNodes& element, TextWriter& out) {
   for (const int node : element) out << ' ' << mesh.number(node);
@@ -277,7 +257,6 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
     before += kind.size();
   }
   out << "$EndElements\n";
-  write_periodic(mesh, false, out);
 }
 
 void write_msh4(const OutputMesh& mesh, TextWriter& out) {
@@ -299,7 +278,6 @@ void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   out << "$EndEntities\n";
   write_node_blocks(mesh, all, out);
   write_element_blocks(mesh, all, out);
-  write_periodic(mesh, true, out);
 }
 
 }  // namespace

@@ -75,12 +75,6 @@ void OutputMesh::name_groups(int dimension) {
   }
 }
 
-std::vector<ShellMesh::Match> OutputMesh::matches() const {
-  std::vector<ShellMesh::Match> result = mesh_.matches;
-  std::erase_if(result, [](const ShellMesh::Match& match) { return match.nodes.empty(); });
-  return result;
-}
-
 std::vector<int> OutputMesh::members(int dimension, const NamedGroup& group) const {
   std::vector<int> result;
   for (const CadGroup& entity : entities(dimension)) {

@@ -93,9 +93,6 @@ class OutputMesh {
   /// Groups by thickness, in the order of their first faces; empty if no thickness is known.
   const std::vector<ThicknessGroup>& thicknesses() const { return thicknesses_; }
 
-  /// Pairs of faces or edges with the same nodes, as far as they have nodes.
-  std::vector<ShellMesh::Match> matches() const;
-
   /// Thickness of the shell on a CAD face, the mean if it varies; 0 if not known.
   double face_thickness(int face) const;
   /// Thicknesses at the corners of a shell element; 0 if not known.

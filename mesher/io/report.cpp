@@ -11,7 +11,6 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "geometry/base/atomic_file.hpp"
 #include "geometry/base/process_usage.hpp"
@@ -155,24 +154,6 @@ json extra_groups_to_json(const ShellMesh& mesh) {
   });
 }
 
-/// The motion of each pair, and its nodes by their numbers in mesh files.
-json matches_to_json(const ShellMesh& mesh) {
-  return listed(mesh.matches, [](const ShellMesh::Match& match) {
-    const RigidMotion& motion = match.motion;
-    json moved{{"translation", motion.translation}};
-    if (motion.angle != 0)
-      moved.update({{"center", motion.center},
-                    {"axis", motion.axis},
-                    {"degrees", motion.angle * 180 / std::numbers::pi}});
-    return json{{"from", entity_name(match.dimension, match.entities[0])},
-                {"to", entity_name(match.dimension, match.entities[1])},
-                {"motion", moved},
-                {"nodes", listed(match.nodes, [](const auto& pair) {
-                   return json{pair[0] + 1, pair[1] + 1};
-                 })}};
-  });
-}
-
 json suppressed_to_json(const ShellMesh& mesh) {
   using Kind = ShellMesh::SuppressedFeature::Kind;
   return listed(mesh.suppressed_features, [](const ShellMesh::SuppressedFeature& feature) {
@@ -250,7 +231,6 @@ json make_report(const ShellMesh& mesh, const MeshMeasures& measures, const Exec
           {"crossed_edges", crossed_to_json(mesh)},
           {"groups", extra_groups_to_json(mesh)},
           {"placed_nodes", placed_to_json(mesh)},
-          {"matches", matches_to_json(mesh)},
           {"poor_quads", poor_quads_to_json(mesh)},
           {"finer_quads", elements_to_json(mesh.finer_quads)},
           {"warnings", warnings},

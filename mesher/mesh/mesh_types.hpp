@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/base/rigid_motion.hpp"
 #include "geometry/base/vector.hpp"
 
 namespace quadrille {
@@ -164,14 +163,6 @@ struct ShellMesh {
     bool added = false;  ///< the vertex is not in the CAD model: its number follows those of the model
   };
 
-  /// Two CAD faces, or two edges, that have the same nodes.
-  struct Match {
-    int dimension = 2;                      ///< 2: faces, 1: edges
-    std::array<int, 2> entities{};          ///< their numbers, from 1
-    RigidMotion motion;                     ///< takes the first to the second
-    std::vector<std::array<int, 2>> nodes;  ///< node of the first, and the one of the second where it goes
-  };
-
   /// The thickness of the shell on a CAD face where it varies over the face.
   struct VaryingThickness {
     int face = 0;                     ///< CAD face, from 1
@@ -194,7 +185,6 @@ struct ShellMesh {
   std::vector<Segment> segments;              ///< the sides on CAD edges, each once
   std::vector<Corner> corners;                ///< the nodes on CAD vertices and those of placed_nodes
   std::vector<PlacedNode> placed_nodes;       ///< in the order in which they were requested
-  std::vector<Match> matches;                 ///< in the order in which they were requested
   std::vector<OffGeometry> off_geometry;      ///< ascending by node; usually empty
   std::vector<SuppressedFeature>
       suppressed_features;                 ///< edges, then vertices, ascending; for faces see Face::status

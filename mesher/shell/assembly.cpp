@@ -202,14 +202,13 @@ void note_off_geometry(ShellMesh& mesh) {
 }
 
 ShellMesh assemble(const ShellGeometry& geometry, const BoundaryNodes& nodes, const FaceMeshes& faces,
-                   int order, ExecutionContext& context, ShellNumbering* numbering) {
+                   int order, ExecutionContext& context) {
   const StageTimer timer(context, Stage::assemble);
   context.report(Stage::assemble, 0);
   const MeshedFaces meshed{geometry, nodes, faces};
   Assembler assembler(meshed, context);
   ShellMesh mesh = assembler.run();
   if (order == 2) make_second_order(meshed, assembler.numbering(), mesh, context);
-  if (numbering != nullptr) *numbering = assembler.numbering();
   return mesh;
 }
 

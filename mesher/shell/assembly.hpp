@@ -10,10 +10,9 @@ namespace quadrille {
 /// Numbers the nodes (CAD vertices, CAD edges, then face by face), and at second order adds midside nodes on
 /// the geometry. Boundary nodes that no quad uses are left out. Throws Error (failure) if an element of
 /// second order folds even with straight sides.
-/// \param order 1 or 2. `faces` of the result stays empty. \param numbering out: where parts of the faces are
-/// in the mesh; null = not wanted
+/// \param order 1 or 2. `faces` of the result stays empty.
 ShellMesh assemble(const ShellGeometry& geometry, const BoundaryNodes& nodes, const FaceMeshes& faces,
-                   int order, ExecutionContext& context, ShellNumbering* numbering = nullptr);
+                   int order, ExecutionContext& context);
 
 /// Records in each face's entry and note how many of its nodes are off the geometry, and how far.
 void note_off_geometry(ShellMesh& mesh);

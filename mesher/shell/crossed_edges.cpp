@@ -120,8 +120,7 @@ class CandidateFinder {
   bool is_eligible(EdgeId id) const {
     const CadEdge& cad = shape_.edges[id];
     const BoundaryNodes::Edge& edge = nodes_.edges[id];
-    if (kept_[id] || edge.kept || edge.matched || edge.divided || edge.borrows || edge.segments() < 1)
-      return false;
+    if (kept_[id] || edge.kept || edge.divided || edge.borrows || edge.segments() < 1) return false;
     if (cad.faces.size() != 2 || cad.degenerate) return false;
     for (const FaceId face : cad.faces)
       if (!faces_[face] || !faces_[face]->off.empty() || nodes_.left_out.contains({face, id})) return false;

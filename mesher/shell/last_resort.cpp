@@ -189,9 +189,6 @@ class Surroundings {
     std::vector<char> fixed(quads_.points.size(), 0);
     for (const int node : nodes_.vertex_nodes)
       if (node >= 0) fixed[node] = 1;
-    for (const auto& edge : nodes_.edges)
-      if (edge.matched)
-        for (const int node : edge.nodes) fixed[node] = 1;
     for (const FaceId id : meshes_.ids())
       if (meshes_[id] && !faces_.contains(id))
         for (const int node : meshes_[id]->nodes) fixed[node] = 1;

@@ -269,7 +269,7 @@ using EdgeParameters = IdVector<EdgeId, std::vector<double>>;
 std::vector<char> slidable_nodes(const BoundaryNodes& nodes, const FaceStates& faces) {
   std::vector<char> uses = nodes.edges_at_nodes();
   for (const auto& edge : nodes.edges) {
-    if (!edge.kept && !edge.matched) continue;
+    if (!edge.kept) continue;
     for (const int node : edge.nodes) uses[node] = 2;
   }
   for (const FaceState& face : faces) {

@@ -164,9 +164,7 @@ void for_each_face_left(const Run& run, const Boundary& boundary, Faces& faces, 
   std::atomic<int> done{0};
   const auto work_on = [&](FaceId face) {
     FaceRecord& record = faces.records[face];
-    if (!boundary.meshed[face] || faces.meshes[face] || record.given_up ||
-        run.prepared.matches.copied_faces[face])
-      return;
+    if (!boundary.meshed[face] || faces.meshes[face] || record.given_up) return;
     const auto fails = [&](const char* how, const char* why) {
       record.problem.emplace(Cause::no_mesh, face,
                              fmt::format("Face{} cannot be {} ({})", face.number(), how, why));

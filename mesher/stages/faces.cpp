@@ -12,7 +12,6 @@
 
 #include "geometry/base/place_text.hpp"
 #include "mesher/shell/last_resort.hpp"
-#include "mesher/shell/matched_faces.hpp"
 #include "mesher/shell/node_sliding.hpp"
 
 namespace quadrille {
@@ -102,8 +101,7 @@ void mesh_in_rounds(const Run& run, Boundary& boundary, Faces& faces) {
   }
 }
 
-/// Adds a hint to the problem of each face that is far smaller than the elements: it can be left out. A
-/// matched face has no mesh if the face whose mesh it copies has none.
+/// Adds a hint to the problem of each face that is far smaller than the elements: it can be left out.
 void explain_problems(const Prepared& prepared, Faces& faces) {
   constexpr double tiny = 0.5;
   for (const FaceId face : faces.records.ids()) {
@@ -114,12 +112,6 @@ void explain_problems(const Prepared& prepared, Faces& faces) {
                     fmt::format("{}; its longest edge is {}: `merge_tiny` {} leaves it out", problem->what(),
                                 number_text(longest), number_text(1.1 * longest)));
   }
-  for (const MatchedFace& face : prepared.matches.faces)
-    if (const auto& problem = faces.records[face.from].problem)
-      faces.records[face.to].problem.emplace(
-          problem->cause(), face.to,
-          fmt::format("Face{} copies the mesh of another face, which failed: {}", face.to.number(),
-                      problem->what()));
 }
 
 /// With options.partial and a time limit, undoes the sliding if there is no time for all of it. \return the
@@ -159,9 +151,7 @@ std::vector<EdgeId> mesh_faces(const Run& run, Boundary& boundary, Faces& faces)
   if (none)
     throw failure("size_min",
                   "all faces are far smaller than the minimum size: reduce it, or use `keep_features`");
-  std::vector<EdgeId> crossed = slide(run, boundary.nodes, faces.meshes);
-  copy_faces(run.prepared.shape, run.prepared.matches, boundary.nodes, faces.meshes);
-  return crossed;
+  return slide(run, boundary.nodes, faces.meshes);
 }
 
 }  // namespace quadrille

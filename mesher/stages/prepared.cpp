@@ -33,14 +33,11 @@ SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bo
   return result;
 }
 
-/// Options by which matched faces and edges keep nodes of their own.
-MeshOptions checked(const CadModel& model, MeshOptions options) {
+/// Throws Error: usage for invalid options, failure for edges far outside the model.
+const MeshOptions& checked(const CadModel& model, const MeshOptions& options) {
   check({options, {}}, model);
   for (const StrayEdge& stray : stray_edges(model.shape(), faces_used(model, options)))
     throw failure(fmt::format("Edge{}", stray.edge), stray.sentence() + "; `faces` can leave its faces out");
-  SizingOptions& sizing = options.sizing;
-  for (const MatchedPair& pair : sizing.matches)
-    (pair.dimension == 2 ? sizing.kept_faces : sizing.kept_edges).insert({pair.first, pair.second});
   return options;
 }
 
@@ -50,24 +47,13 @@ double suppression_reach(const SizeLimits& limits, const MeshOptions& options, d
   return share * (options.reach > 0 ? options.reach : far_below * limits.size_min);
 }
 
-/// The model with edges divided at slivers, except around edges whose nodes users prescribe or match.
+/// The model with edges divided at slivers, except around edges whose nodes users prescribe.
 CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& options, double reach) {
   const SizingOptions& sizing = options.sizing;
   const CadShape& source = model.shape();
-  const auto leave = [&](EdgeId edge) {
-    for (const FaceId face : source.edges[edge].faces) used[face] = 0;
-  };
-  for (const EdgeId id : source.edges.ids()) {
-    const int number = source.edges[id].number;
-    if (sizing.spacings.contains(number) || sizing.layers.edges.contains(number)) leave(id);
-  }
-  for (const MatchedPair& pair : sizing.matches)
-    for (const int number : {pair.first, pair.second}) {
-      if (pair.dimension == 1)
-        leave(EdgeId::from_number(number));
-      else
-        for (const EdgeId edge : source.faces[FaceId::from_number(number)].edges()) leave(edge);
-    }
+  for (const CadEdge& edge : source.edges)
+    if (sizing.spacings.contains(edge.number) || sizing.layers.edges.contains(edge.number))
+      for (const FaceId face : edge.faces) used[face] = 0;
   const auto shape = divided_at_slivers(source, used, reach);
   return shape ? CadModel(shape) : model;
 }
@@ -77,7 +63,7 @@ Protection protect(const Prepared& prepared, const std::set<int>& uncrossed) {
   const SizingOptions& sizing = prepared.options.sizing;
   Protection result{prepared.plan.below_size_min,
                     EdgeFlags(shape.edges.size(), prepared.options.keep_features ? 1 : 0),
-                    prepared.matches.vertices(shape)};
+                    {}};
   for (const PlacedNode& node : prepared.placed.nodes) result.vertices.push_back(node.vertex);
   for (const EdgeId id : shape.edges.ids()) {
     const CadEdge& edge = shape.edges[id];
@@ -129,14 +115,12 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
       model(how.divides ? divided(placed.shape ? CadModel(placed.shape) : simple.model, asked, options, reach)
                         : simple.model),
       shape(model.shape()),
-      matches(find_matches(shape, options.sizing.matches, asked)),
       plan(shape, edges_below_size_min(model, options.sizing, limits)),
       protection(protect(*this, how.uncrossed)),
       suppressed(shape, asked, reach, protection.lengths, protection.vertices) {
   constexpr double far_below = 0.02;
   plan.shortest_segment = far_below * limits.size_min;
   if (options.strategy == Strategy::subdivide) plan.subdivided.assign(shape.faces.size(), 1);
-  plan.matched = matches.edges;
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
   meshed = leave_out_tiny(suppressed, plan);
   const FaceOutlines outlines = find_outlines(*this, plan.tiny);

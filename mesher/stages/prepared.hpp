@@ -9,7 +9,6 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
 #include "mesher/edges/grid_rows.hpp"
-#include "mesher/edges/matching.hpp"
 #include "mesher/edges/placed_nodes.hpp"
 #include "mesher/edges/simplified_model.hpp"
 #include "mesher/edges/suppressed_features.hpp"
@@ -20,7 +19,7 @@ namespace quadrille {
 /// 1 = the options ask for this face to be meshed.
 FaceFlags faces_used(const CadModel& model, const MeshOptions& options);
 
-/// What users or matched pairs keep from being suppressed or crossed.
+/// What users keep from being suppressed or crossed.
 struct Protection {
   EdgeFlags lengths;               ///< 1 = the edge must not become a point
   EdgeFlags own_nodes;             ///< 1 = the edge keeps nodes of its own: no quad crosses it
@@ -44,8 +43,8 @@ struct Prepared {
   /// Leaves out what is too small, in `plan`. \return 1 = the face is meshed
   FaceFlags leave_out_tiny(const SuppressedFeatures& now, SamplingPlan& plan) const;
 
-  MeshOptions options;  ///< with matched faces and edges among those to keep
-  int vertices;         ///< of the model; the others divide edges or are placed inside faces
+  MeshOptions options;
+  int vertices;  ///< of the model; the others divide edges or are placed inside faces
   SimplifiedModel simple;
   FaceFlags asked;  ///< 1 = is to be meshed, unless it is tiny
   SizeLimits limits;
@@ -53,7 +52,6 @@ struct Prepared {
   PlacedNodes placed;
   CadModel model;
   const CadShape& shape;
-  Matches matches;
   SamplingPlan plan;  ///< to begin with
   Protection protection;
   SuppressedFeatures suppressed;  ///< to begin with

@@ -12,7 +12,6 @@
 
 #include "geometry/base/place_text.hpp"
 #include "mesher/shell/assembly.hpp"
-#include "mesher/shell/matched_faces.hpp"
 #include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/size_fidelity.hpp"
 
@@ -167,10 +166,8 @@ ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
   const Prepared& prepared = run.prepared;
   const CadShape& shape = prepared.shape;
   if (prepared.options.partial) run.context.lift_time_limit();
-  ShellNumbering numbering;
-  ShellMesh result = assemble(CadGeometry(shape), boundary.nodes, faces.meshes, prepared.options.order,
-                              run.context, &numbering);
-  list_matches(prepared.matches, boundary.nodes, numbering, result);
+  ShellMesh result =
+      assemble(CadGeometry(shape), boundary.nodes, faces.meshes, prepared.options.order, run.context);
   for (const FaceId face : shape.faces.ids())
     result.faces.push_back(status_of(face, prepared, boundary, faces));
   result.suppressed_features = suppressed_features(prepared, boundary.plan.tiny);

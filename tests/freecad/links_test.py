@@ -255,6 +255,14 @@ class OldDocumentTest(unittest.TestCase):
         self.assertEqual(sizes, {("Face5",): 1.0, ("Edge2",): 0.5})
         self.assertNotIn("Sizes", part.PropertiesList)
 
+    def test_properties_that_are_gone_are_dropped(self):
+        part = self.document.Part
+        part.addProperty("App::PropertyStringList", "Match", "Mesh", "")
+        part.Match = ["Face1=Face5"]
+        part.Proxy.onDocumentRestored(part)
+        self.assertNotIn("Match", part.PropertiesList)
+        self.assertEqual(part.Status, state.UP_TO_DATE)
+
 
 class GuardTest(unittest.TestCase):
     """FreeCAD's private functions may go: each costs one feature and a warning."""

@@ -107,15 +107,6 @@ class PackageTest(unittest.TestCase):
         area = 0.5 * np.linalg.norm(np.cross(c - a, d - b), axis=1).sum()
         self.assertAlmostEqual(area / self.model.area, 1, delta=0.01)
 
-    def test_matched_faces_have_the_same_nodes(self):
-        box = quadrille.read(MODELS / "box.brep")
-        for match in (["Face1=Face2"], [("Face1", "Face2")], {"Face1": "Face2"}):
-            mesh = pickle.loads(pickle.dumps(quadrille.mesh(box, match=match, order=2)))
-            (pair,) = mesh.matches
-            self.assertEqual((pair["from"], pair["to"]), ("Face1", "Face2"))
-            moved = mesh.points[pair["nodes"][:, 0]] @ pair["matrix"][:3, :3].T + pair["matrix"][:3, 3]
-            self.assertLess(np.abs(moved - mesh.points[pair["nodes"][:, 1]]).max(), 1e-9)
-
     def test_arrays_are_views_that_keep_the_mesh_alive(self):
         mesh = quadrille.mesh(self.model, size=8)
         self.assertEqual(mesh.points.__array_interface__["data"], mesh.points.__array_interface__["data"])

@@ -35,9 +35,24 @@ struct SecondOrder {
   explicit SecondOrder(const TopoDS_Shape& shape)
       : parts(CadModel(std::make_shared<CadShape>(shape, "solid")), 2) {
     ExecutionContext context(1);
-    mesh = assemble(parts.geometry, parts.nodes, parts.faces, 1, context, &numbering);
+    mesh = assemble(parts.geometry, parts.nodes, parts.faces, 1, context);
+    number_as_assembled();
     corner_nodes = mesh.points.size();
     midsides = add_midsides(parts.parts, numbering, mesh, context);
+  }
+
+ private:
+  void number_as_assembled() {
+    for (const Vector3& point : parts.nodes.points) {
+      const auto found = std::find(mesh.points.begin(), mesh.points.end(), point);
+      numbering.nodes.push_back(found == mesh.points.end() ? -1
+                                                           : static_cast<int>(found - mesh.points.begin()));
+    }
+    numbering.first_quad = {0};
+    for (const auto& face : parts.faces)
+      numbering.first_quad.push_back(numbering.first_quad.back() + face->quads.size());
+    for (const EdgeId edge : parts.nodes.edges.ids())
+      for (int k = 0; k < parts.nodes.edges[edge].segments(); ++k) numbering.segments.push_back({edge, k});
   }
 };
 

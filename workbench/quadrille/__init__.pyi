@@ -11,7 +11,6 @@ __version__: str
 
 _Path = Union[str, PathLike[str]]
 _Entries = Union[Sequence[str], Mapping[str, Union[float, Sequence[float]]]]  # ["Edge4=20"] or {"Edge4": 20}
-_Pairs = Union[Sequence[str], Sequence[Tuple[str, str]], Mapping[str, str]]  # ["Face3=Face7"] or {"Face3": "Face7"}
 _Nodes = Union[Sequence[Union[str, Sequence[float]]], Mapping[str, Sequence[float]]]  # [(1, 2, 3)] or {"Tip": (1, 2, 3)}
 _Progress = Callable[[str, float], Optional[bool]]
 _Limits = Union[str, PathLike[str], None]
@@ -68,8 +67,6 @@ class Mesh:
     def recombined(
         self, *, feature_angle: float = 40.0, merge: Optional[float] = None, improve: bool = True, threads: int = 0
     ) -> Mesh: ...
-    @property
-    def matches(self) -> List[Dict[str, Any]]: ...
     @property
     def fidelity(self) -> Optional[Dict[str, Any]]: ...
     def _repr_html_(self) -> str: ...
@@ -141,7 +138,6 @@ def mesh(
     fill_holes: Optional[float] = None,
     keep_features: Optional[bool] = None,
     keep: Optional[_Entries] = None,
-    match: Optional[_Pairs] = None,
     nodes_at: Optional[_Nodes] = None,
     force: Optional[bool] = None,
     time_limit: Optional[float] = None,

@@ -772,10 +772,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Abstufung von beiden Enden</translation>
     </message>
     <message>
-        <source>Pair</source>
-        <translation>Paar</translation>
-    </message>
-    <message>
         <source>Node</source>
         <translation>Knoten</translation>
     </message>
@@ -982,10 +978,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>layers: {} of {} quads along it are the first of {} rows</source>
         <translation>Schichten: {} von {} Vierecken daran sind die ersten von {} Reihen</translation>
-    </message>
-    <message>
-        <source>pair: {} has the same {} nodes</source>
-        <translation>Paar: {} hat dieselben {} Knoten</translation>
     </message>
     <message>
         <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
@@ -1445,10 +1437,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
         <translation>Löcher, Taschen und Zapfen weglassen, die nicht breiter sind als diese Länge; 0 = alle werden vernetzt</translation>
-    </message>
-    <message>
-        <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
-        <translation>Paare von Flächen oder Kanten, die die gleichen Knoten erhalten, verschoben oder gedreht, etwa Face3=Face7,Edge2=Edge9; leer = keine</translation>
     </message>
     <message>
         <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>

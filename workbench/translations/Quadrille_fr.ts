@@ -772,10 +772,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Progression depuis les deux bouts</translation>
     </message>
     <message>
-        <source>Pair</source>
-        <translation>Paire</translation>
-    </message>
-    <message>
         <source>Node</source>
         <translation>Nœud</translation>
     </message>
@@ -982,10 +978,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>layers: {} of {} quads along it are the first of {} rows</source>
         <translation>couches : {} des {} quadrangles le long sont les premiers de {} rangées</translation>
-    </message>
-    <message>
-        <source>pair: {} has the same {} nodes</source>
-        <translation>paire : {} a les mêmes {} nœuds</translation>
     </message>
     <message>
         <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
@@ -1445,10 +1437,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Leave out holes, pockets and bosses that are no wider than this length; 0 = all are meshed</source>
         <translation>Laisser de côté les trous, poches et bossages qui ne sont pas plus larges que cette longueur ; 0 = tous sont maillés</translation>
-    </message>
-    <message>
-        <source>Pairs of faces or edges that get the same nodes, moved by a translation or a rotation, such as Face3=Face7,Edge2=Edge9; empty = none</source>
-        <translation>Paires de faces ou d’arêtes qui reçoivent les mêmes nœuds, par une translation ou une rotation, comme Face3=Face7,Edge2=Edge9 ; vide = aucune</translation>
     </message>
     <message>
         <source>Largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares</source>

@@ -70,8 +70,8 @@ def face_name(face: Union[int, str, SupportsIndex]) -> str:
 
 
 def entry_texts(value: Any) -> List[str]:
-    """Entries as texts for the command. They are given as texts, sequences of numbers or pairs of names, or as a dict that maps
-    names to one or more numbers or another name."""
+    """Entries as texts for the command. They are given as texts or sequences of numbers, or as a dict that maps names to
+    one or more numbers."""
     if isinstance(value, dict):
         return [f"{name}={_joined(own)}" for name, own in value.items()]
     return [_joined(entry) for entry in value]
@@ -81,8 +81,6 @@ def _joined(entry: Any) -> str:
     """One number or text, or several numbers, as the command takes them."""
     if isinstance(entry, str) or not hasattr(entry, "__iter__"):
         return str(entry)
-    if all(isinstance(name, str) for name in entry):
-        return "=".join(entry)
     return ",".join(str(float(number)) if isinstance(number, float) else str(number) for number in entry)
 
 

@@ -22,7 +22,6 @@ def as_text(report: Dict[str, Any], layers: Sequence[Dict[str, Any]] = ()) -> st
     lists = {name: [{key: value for key, value in entry.items() if key != "line"} for entry in report.get(name, ())] for name in _LISTS}
     lists["merged_faces"] = [{key: face[key] for key in ("name", "note")} for face in report.get("faces", ())
                              if face.get("status") == "merged"]
-    lists["matches"] = [{**pair, "nodes": len(pair["nodes"])} for pair in report.get("matches", ())]
     lists["layers"] = list(layers)
     return json.dumps(lists)
 

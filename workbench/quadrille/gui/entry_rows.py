@@ -24,7 +24,6 @@ _WORDS = {
     "Segments": QT_TRANSLATE_NOOP("Quadrille", "Segments"),
     "Bias": QT_TRANSLATE_NOOP("Quadrille", "Bias"),
     "BiasBoth": QT_TRANSLATE_NOOP("Quadrille", "Bias from both ends"),
-    "Match": QT_TRANSLATE_NOOP("Quadrille", "Pair"),
     "NodesAt": QT_TRANSLATE_NOOP("Quadrille", "Node"),
     "Keep": QT_TRANSLATE_NOOP("Quadrille", "Keep"),
 }
