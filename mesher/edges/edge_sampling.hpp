@@ -16,7 +16,6 @@
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_plan.hpp"
 #include "mesher/edges/matching.hpp"
-#include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -82,7 +81,6 @@ struct SamplingPlan {
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
   TinyFeatures tiny;
   PrescribedEdges prescribed;  ///< user divisions; may be empty
-  RowLines rows;               ///< along which faces get rows, and where these end on edges
   /// Edges whose nodes are copied to others, in this order; plan.tiny must leave them and their vertices.
   std::vector<MatchedEdge> matched;
 

@@ -255,6 +255,15 @@ class OldDocumentTest(unittest.TestCase):
         self.assertEqual(sizes, {("Face5",): 1.0, ("Edge2",): 0.5})
         self.assertNotIn("Sizes", part.PropertiesList)
 
+    def test_an_option_that_is_gone_is_left_behind(self):
+        path = self.document.FileName
+        self.document.Part.addProperty("App::PropertyStringList", "Layers", "Mesh").Layers = ["Edge1=0.1,1.2,6"]
+        self.document.save()
+        FreeCAD.closeDocument(self.document.Name)
+        self.document = FreeCAD.openDocument(path)
+        self.assertNotIn("Layers", self.document.Part.PropertiesList)
+        self.assertEqual(self.document.Part.Status, state.UP_TO_DATE)
+
 
 class GuardTest(unittest.TestCase):
     """FreeCAD's private functions may go: each costs one feature and a warning."""

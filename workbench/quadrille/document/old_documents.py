@@ -11,6 +11,8 @@ _TYPES = {"Faces": links.PROPERTY, "FlippedFaces": links.PROPERTY, "Status": "Ap
 
 def migrate(mesh) -> None:
     """Converts the properties of a mesh object that was just read to this version's types, with the same meaning."""
+    if "Layers" in mesh.PropertiesList:  # an option that is gone
+        mesh.removeProperty("Layers")
     # add_properties() adds those that are missing altogether.
     for name, kind in _TYPES.items():
         if name not in mesh.PropertiesList or mesh.getTypeIdOfProperty(name) == kind:

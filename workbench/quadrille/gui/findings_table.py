@@ -59,7 +59,7 @@ def kept_with(kept: Sequence[str], names: Sequence[str], on: bool) -> List[str]:
 
 def rows_of(mesh) -> List[Row]:
     """The findings of a mesh, the most harmful first: what was left out, by its distance; what forces poor quads, by their number;
-    what is crossed or joined; what was kept although it is small; and what became of layers and pairs."""
+    what is crossed or joined; what was kept although it is small; and what became of pairs."""
     found = findings_of(mesh)
     kept = [Row((entry["name"],), translate("Quadrille", "small, but meshed: {}").format(_told(entry["why"]))) for entry in found["kept"]]
     lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept,
@@ -99,9 +99,6 @@ def _crossed(found: Dict[str, List[Any]]) -> Iterable[Row]:
 
 
 def _asked(found: Dict[str, List[Any]]) -> Iterable[Row]:
-    for layer in found.get("layers", ()):
-        yield Row((layer["name"],), translate("Quadrille", "layers: {} of {} quads along it are the first of {} rows").format(
-            layer["full"], layer["quads"], layer["asked"]))
     for pair in found.get("matches", ()):
         yield Row((pair["from"], pair["to"]), translate("Quadrille", "pair: {} has the same {} nodes").format(pair["to"], pair["nodes"]))
 
