@@ -75,15 +75,6 @@ FaceDemand demand_of(FaceId id, const CadFace& face, const std::vector<FaceSampl
   return result;
 }
 
-/// The quads of rows along edges of a face that is not a grid. Blocks in corners are not counted.
-double quads_of_rows(FaceId face, const BoundaryNodes& nodes) {
-  double count = 0;
-  for (const RowLine& line : nodes.plans[face].row_lines)
-    for (const EdgeId edge : line.edges)
-      count += static_cast<double>(line.heights.size()) * nodes.edges[edge].segments();
-  return count;
-}
-
 double expected_quads(const FaceDemand& demand, double in_grid, bool keeps_grid) {
   // The narrowest strip has two rows of quads, with ends of two sides each.
   const double others = std::max({4.0, demand.border - 4.0, demand.quads});
@@ -126,8 +117,7 @@ std::vector<double> QuadEstimate::quads_by_face(const MeshOptions& options) {
       const BoundaryNodes& nodes = boundary.nodes;
       SizingField::Sampler size_at(boundary.field, id);
       const FacePlan& plan = nodes.plans[id];
-      counts[id.index()] = quads_of_rows(id, nodes);
-      counts[id.index()] +=
+      counts[id.index()] =
           expected_quads(demand_of(id, face, samples[id], size_at, options.sizing.growth, nodes),
                          plan.grid_quads, plan.has_kept_edge || plan.has_divided_edge);
     }

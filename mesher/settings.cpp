@@ -238,10 +238,6 @@ std::vector<Setting> make_table() {
        "halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around "
        "the region the size grows to the global one over that length",
        Setting::EntryList{set_regions, regions_of}},
-      {"layers", "layers", "Layers", none, mesh, none, 0, 0, false, "none",
-       "sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, "
-       "ratio and number, such as Edge4=0.1,1.2,6",
-       Setting::EntryList{set_layers, layers_of}},
       {"segments", "segments", "Segments", none, mesh, none, 0, 0, false, "by size",
        "number of segments on edges, such as Edge4=20; opposite edges of grids get the same number",
        Setting::EntryList{set_segments, segments_of}},
@@ -477,18 +473,16 @@ std::vector<int> pieces_of(const Setting& setting, int dimension, int number, co
   return pieces[static_cast<std::size_t>(number) - 1];
 }
 
-/// Where several entities share a piece, the value that `better` prefers.
-template <class Value, class Better>
-void rename(const Setting& setting, int dimension, const CadModel& model, std::map<int, Value>& values,
-            Better better) {
-  std::map<int, Value> renamed;
-  for (const auto& [number, value] : values) {
-    for (const int piece : pieces_of(setting, dimension, number, model)) {
-      const auto [place, is_new] = renamed.emplace(piece, value);
-      if (!is_new && better(value, place->second)) place->second = value;
+/// Where several entities share a piece, the smallest of their sizes.
+void rename(int dimension, const CadModel& model, std::map<int, double>& sizes) {
+  std::map<int, double> renamed;
+  for (const auto& [number, size] : sizes) {
+    for (const int piece : pieces_of(entry("sizes"), dimension, number, model)) {
+      double& own = renamed.emplace(piece, size).first->second;
+      own = std::min(own, size);
     }
   }
-  values = std::move(renamed);
+  sizes = std::move(renamed);
 }
 
 }  // namespace
@@ -502,8 +496,7 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
     for (const int piece : pieces_of(entry("faces"), 2, face, model))
       if (std::find(faces.begin(), faces.end(), piece) == faces.end()) faces.push_back(piece);
   SizingOptions& sizing = result.mesh.sizing;
-  for (const int dimension : {2, 1, 0})
-    rename(entry("sizes"), dimension, model, *sizes_by_name(sizing)[dimension], std::less());
+  for (const int dimension : {2, 1, 0}) rename(dimension, model, *sizes_by_name(sizing)[dimension]);
   for (const int dimension : {2, 1}) {
     std::set<int>& kept = dimension == 2 ? sizing.kept_faces : sizing.kept_edges;
     for (const int number : std::exchange(kept, {})) {
@@ -511,9 +504,6 @@ Settings with_pieces(const Settings& settings, const CadModel& model) {
       kept.insert(pieces.begin(), pieces.end());
     }
   }
-  const auto finer = [](const SizeLayers& one, const SizeLayers& other) { return one.first < other.first; };
-  for (const int dimension : {2, 1, 0})
-    rename(entry("layers"), dimension, model, sizing.layers.of(dimension), finer);
   std::map<int, EdgeSpacing> spacings;
   for (const auto& [edge, spacing] : sizing.spacings) {
     const Setting& setting = entry_of(spacing);
@@ -552,8 +542,6 @@ void check(const Settings& settings, const CadModel& model) {
     check_all(entry("sizes"), keys(*sizes_by_name(sizing)[dimension]), dimension);
   check_all(entry("keep"), sizing.kept_faces, 2);
   check_all(entry("keep"), sizing.kept_edges, 1);
-  for (const int dimension : {2, 1, 0})
-    check_all(entry("layers"), keys(sizing.layers.of(dimension)), dimension);
   for (const auto& [edge, spacing] : sizing.spacings) {
     check_all(entry_of(spacing), std::array{edge}, 1);
     if (spacing.bias != 1 && spacing.bias_both != 1)

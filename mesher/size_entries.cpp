@@ -198,34 +198,6 @@ Entries bias_both_of(const SizingOptions& sizing) {
   return ratios_of(sizing, &EdgeSpacing::bias_both);
 }
 
-void set_layers(SizingOptions& sizing, const Entries& entries) {
-  constexpr const char* what =
-      "the first height, the ratio (1 to 3) and the number of layers such as Edge4=0.1,1.2,6";
-  constexpr double steepest = 3, max_layers = 1000;
-  sizing.layers = {};
-  for (const std::string& entry : entries) {
-    const auto [name, text] = sides_of_equals(entry);
-    const std::vector<double> values = numbers(text);
-    if (values.size() != 3 || !(values[0] > 0) || !(values[1] >= 1 && values[1] <= steepest) ||
-        !(values[2] >= 1 && values[2] <= max_layers && values[2] == std::floor(values[2])))
-      refuse(what, entry);
-    const auto [dimension, number] = entity_of(name);
-    if (dimension < 0) refuse("names such as Face3, Edge4 or Vertex2", std::string(name));
-    const SizeLayers layers{values[0], values[1], static_cast<int>(values[2])};
-    if (!sizing.layers.of(dimension).emplace(number, layers).second)
-      throw std::invalid_argument(fmt::format("names {} twice", name));
-  }
-}
-
-Entries layers_of(const SizingOptions& sizing) {
-  Entries entries;
-  for (const int dimension : {2, 1, 0})
-    for (const auto& [number, own] : sizing.layers.of(dimension))
-      entries.push_back(
-          fmt::format("{}={},{},{}", entity_name(dimension, number), own.first, own.ratio, own.count));
-  return entries;
-}
-
 void set_nodes(SizingOptions& sizing, const Entries& entries) {
   static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}");
   std::set<std::string> names;

@@ -30,8 +30,6 @@ void set_bias_both(SizingOptions& sizing, const Entries& entries);
 Entries bias_both_of(const SizingOptions& sizing);
 
 /// "Edge4=FIRST,RATIO,COUNT", likewise for faces and vertices.
-void set_layers(SizingOptions& sizing, const Entries& entries);
-Entries layers_of(const SizingOptions& sizing);
 
 /// "x,y,z" or "Name=x,y,z". Names are letters, digits, '_' and '-', and none is a group's name already.
 void set_nodes(SizingOptions& sizing, const Entries& entries);

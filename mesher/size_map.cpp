@@ -61,8 +61,6 @@ constexpr Kind kinds[] = {
      }},
     {"size-in", [](const Options& o) { return !o.regions.empty(); },
      [](Options& to, const Options& from) { to.regions = from.regions; }},
-    {"layers", [](const Options& o) { return !o.layers.empty(); },
-     [](Options& to, const Options& from) { to.layers = from.layers; }},
     {"segments, bias", [](const Options& o) { return !o.spacings.empty(); },
      [](Options& to, const Options& from) {
        to.spacings = from.spacings;

@@ -15,7 +15,6 @@ std::vector<std::string> other_text(const Setting& setting) {
   static const std::map<std::string_view, std::string> by_name = {
       {"chord_error", "2%"},
       {"size_in", "sphere:0,0,0,1=0.5"},
-      {"layers", "Edge4=0.1,1.2,6"},
       {"segments", "Edge4=20"},
       {"bias", "Edge4=1.2"},
       {"bias_both", "Edge4=1.2"},

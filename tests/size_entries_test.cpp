@@ -26,7 +26,6 @@ TEST(SizeEntries, ComeBackAsTheyWere) {
       {set_segments, segments_of, {"Edge4=20", "Edge9=1"}},
       {set_bias, bias_of, {"Edge4=1.2"}},
       {set_bias_both, bias_both_of, {"Edge4=0.8"}},
-      {set_layers, layers_of, {"Edge4=0.1,1.2,6", "Face2=0.5,1,3", "Vertex9=0.2,1.5,4"}},
       {set_nodes, nodes_of, {"Tip=1,-2.5,3"}}};
   for (const auto& [set, get, entries] : kinds) {
     SizingOptions first, second;
@@ -74,7 +73,6 @@ TEST(SizeEntries, AreRefusedWithTheEntry) {
                                                           {set_segments, "Edge4"},
                                                           {set_segments, "Edge4=1.5"},
                                                           {set_bias, "Edge4=x"},
-                                                          {set_layers, "Edge4=0.1,1.2"},
                                                           {set_nodes, "1,2"},
                                                           {set_kept, "Solid1"}};
   for (const auto& [set, entry] : wrong) {

@@ -57,7 +57,7 @@ std::vector<int> split_count(const CadShape& shape, const std::vector<EdgeId>& p
 }  // namespace
 
 std::vector<double> PrescribedEdge::shares_of(int number) const {
-  return number == segments ? shares : shares_by(number, spacing);
+  return shares_by(number, spacing);
 }
 
 double PrescribedEdge::size_at(double share, double length) const {

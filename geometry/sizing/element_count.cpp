@@ -122,22 +122,11 @@ double blocks_on(double area, double size, const SizingOptions& options, const S
   return blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
 }
 
-/// The size requested on a face itself or by its layers, at most the global one.
-double size_on(const SizingOptions& options, const SizeLimits& limits, FaceId face) {
-  double size = std::min(limits.largest, value_or(options.face_sizes, face.number(), limits.largest));
-  if (const auto own = options.layers.faces.find(face.number()); own != options.layers.faces.end())
-    size = std::min(size, own->second.first);
-  return size;
-}
-
 /// Whether, by the faces' bounding boxes, the blocks around faces with their own sizes may exceed the budget.
 bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
   double squares = 0;
-  const auto add = [&](int face, double size) {
+  for (const auto& [face, size] : options.face_sizes)
     squares += most_on(shape.faces[FaceId::from_number(face)], size);
-  };
-  for (const auto& [face, size] : options.face_sizes) add(face, size);
-  for (const auto& [face, layers] : options.layers.faces) add(face, layers.first);
   return squares * blocks_a_square > options.budget.blocks;
 }
 
@@ -214,8 +203,8 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
   samples_ = sample_faces(model.shape(), used, context);
   double blocks = 0;
   const double count = count_elements(samples_, [&](FaceId face, const FaceSample& sample) {
-    const double size =
-        std::min(size_on(options, limits, face), size_of_curvature(options, limits, sample.curvature));
+    const double size = std::min({limits.largest, value_or(options.face_sizes, face.number(), limits.largest),
+                                  size_of_curvature(options, limits, sample.curvature)});
     if (size < limits.largest) blocks += blocks_on(sample.area, size, options, limits);
     return size;
   });

@@ -146,13 +146,12 @@ bool SizeCascade::is_fresh() const {
   return std::any_of(fresh_.begin(), fresh_.end(), [](const auto& coords) { return !coords.empty(); });
 }
 
-void SizeCascade::grade(double slope, double most, const Near& near, BlockCount& blocks,
-                        const ExecutionContext& context) {
+void SizeCascade::grade(double slope, const Near& near, BlockCount& blocks, const ExecutionContext& context) {
   ++stamp_;
   for (int level = levels() - 1; level >= 0; --level) {
     const auto started = std::chrono::steady_clock::now();
     if (level + 1 < levels()) take_over(level, blocks);
-    grade_level(level, slope, most, near, blocks, context);
+    grade_level(level, slope, near, blocks, context);
     seconds_[level] += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
   last_level_ = -1;
@@ -173,7 +172,7 @@ void SizeCascade::take_over(int level, BlockCount& blocks) {
   }
 }
 
-void SizeCascade::grade_level(int level, double slope, double most, const Near& near, BlockCount& blocks,
+void SizeCascade::grade_level(int level, double slope, const Near& near, BlockCount& blocks,
                               const ExecutionContext& context) {
   std::vector<Coord>& changed = changed_[level];
   changed = std::move(fresh_[level]);
@@ -186,7 +185,7 @@ void SizeCascade::grade_level(int level, double slope, double most, const Near& 
   for (const Coord& c : changed) items.push_back({accessor.value(c), c});
   std::priority_queue<Item> queue(std::less<Item>(), std::move(items));
   const double voxel = frame_.voxel(level);
-  const auto limit = static_cast<float>(std::min({frame_.size_max, most, coverage * frame_.size(level)}));
+  const auto limit = static_cast<float>(std::min(frame_.size_max, coverage * frame_.size(level)));
   std::array<float, 4> step{};
   for (int k = 1; k < 4; ++k) step[k] = static_cast<float>(slope * voxel * std::sqrt(k));
   while (!queue.empty()) {

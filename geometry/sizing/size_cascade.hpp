@@ -138,9 +138,8 @@ class SizeCascade {
   using Near = std::function<bool(const Vector3& point, double voxel)>;
 
   /// Lets sizes grow outward from what was added since the last grading, by at most `slope` per unit of
-  /// length, up to `most`. Coarser levels take over the values of finer ones.
-  void grade(double slope, double most, const Near& near, BlockCount& blocks,
-             const ExecutionContext& context);
+  /// length. Coarser levels take over the values of finer ones.
+  void grade(double slope, const Near& near, BlockCount& blocks, const ExecutionContext& context);
 
   /// Seconds spent on grading a level.
   double seconds(int level) const { return seconds_[level]; }
@@ -181,7 +180,7 @@ class SizeCascade {
 
  private:
   SizeTree& make_tree(int level);
-  void grade_level(int level, double slope, double most, const Near& near, BlockCount& blocks,
+  void grade_level(int level, double slope, const Near& near, BlockCount& blocks,
                    const ExecutionContext& context);
   /// Copies smaller values from the next finer level.
   void take_over(int level, BlockCount& blocks);

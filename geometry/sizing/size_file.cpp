@@ -89,7 +89,7 @@ SizeCascade mean_sizes(const std::vector<SizePoint>& points, double growth, cons
   SizeCascade cascade(frame);
   BlockCount blocks(Budget().blocks);
   cascade.add_means(points, blocks);
-  cascade.grade(growth, frame.size_max, {}, blocks, context);
+  cascade.grade(growth, {}, blocks, context);
   return cascade;
 }
 

@@ -58,10 +58,7 @@ void SizeSources::hold_segments() const {
   for (const EdgeId id : shape_.edges.ids()) {
     const CadEdge& edge = shape_.edges[id];
     if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
-    double cap = cap_of(edge, true);
-    const auto& layers = options_.layers.edges;
-    if (const auto own = layers.find(edge.number); own != layers.end() && !is_set(unsized_.layered, id))
-      cap = std::min(cap, own->second.first);
+    const double cap = cap_of(edge, true);
     const double segments = prescribed_[id] ? prescribed_[id]->segments : edge.length / cap;
     sum += segments;
     if (cap < limits_.largest)
@@ -170,25 +167,6 @@ void SizeSources::face(FaceId id, const Sink& sink) const {
     return FaceSize{std::min(size, spatial_.at(at.point)), std::min(size, spatial_.hint(at.point))};
   };
   sample_face(id, surface, spatial_.spacing(), size_at, sink);
-}
-
-void SizeSources::uniform_edge(EdgeId id, double size, const Sink& sink) const {
-  const CadEdge& edge = shape_.edges[id];
-  if (edge.degenerate || !(edge.length > 0)) return;
-  const EdgeCurve curve(edge);
-  const double n = std::ceil(edge.length / size);
-  if (n > options_.budget.segments) throw too_many_segments(edge, n);
-  SparseCheck check(context_, 256);
-  for (int i = 0; i <= n; ++i) {
-    check();
-    sink(curve.point(edge.first + (edge.last - edge.first) * i / n), size);
-  }
-}
-
-void SizeSources::uniform_face(FaceId id, double size, const Sink& sink) const {
-  const auto size_at = [&](const SurfacePoint&, const Vector2&) { return FaceSize{size, size}; };
-  constexpr double widest = std::numeric_limits<double>::infinity();  // cells are halved from the fewest
-  sample_face(id, FaceSurface(shape_.faces[id]), widest, size_at, sink);
 }
 
 /// Requests options.proximity elements across each gap and, with options.short_edges, elements along it that

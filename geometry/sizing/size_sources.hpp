@@ -33,10 +33,6 @@ class SizeSources {
   /// What a face requests inside.
   void face(FaceId id, const Sink& sink) const;
 
-  /// The same size at points of an edge, or of the inside of a face, about that size apart.
-  void uniform_edge(EdgeId id, double size, const Sink& sink) const;
-  void uniform_face(FaceId id, double size, const Sink& sink) const;
-
  private:
   struct EdgeSample {
     double t;

@@ -69,8 +69,11 @@ class Builder {
         blocks_(options.budget.blocks),
         spatial_(model, options, limits_, blocks_, context),
         sources_(shape_, options_, limits_, unsized, spatial_, context) {
-    field_.cascades = empty_cascades();
-    for (std::size_t i = 0; i < field_.cascades.size(); ++i) mutexes_.emplace_back();
+    const std::size_t n = field_.on_surface ? shape_.faces.size() : 1;
+    for (std::size_t i = 0; i < n; ++i) {
+      field_.cascades.push_back(std::make_unique<SizeCascade>(field_.frame));
+      mutexes_.emplace_back();
+    }
   }
 
   void run() {
@@ -85,12 +88,16 @@ class Builder {
       context_.report(Stage::size, (done.fetch_add(1, std::memory_order_relaxed) + 1) / faces);
     });
     for (const auto& [vertex, size] : options_.vertex_sizes) {
+      if (!(size < limits_.largest)) continue;
       const VertexId id = VertexId::from_number(vertex);
-      adder(field_.cascades, faces_of_vertex(id))(shape_.vertices[id], size);
+      for (const int i : field_.cascades_of(faces_of_vertex(id)))
+        field_.cascades[i]->add(shape_.vertices[id], size, blocks_);
     }
     add_points();
-    add_layers();
-    grade(field_.cascades, options_.growth, limits_.largest);
+    if (field_.on_surface)
+      grade_on_surface(shape_, field_.cascades, options_.growth, blocks_, context_);
+    else
+      field_.cascades.front()->grade(options_.growth, {}, blocks_, context_);
   }
 
  private:
@@ -118,14 +125,6 @@ class Builder {
     std::set<int> cascades_;
     std::vector<SizePoint> points_;
   };
-
-  /// Adds points to the cascades of these faces.
-  SizeSources::Sink adder(FaceCascades& cascades, const std::vector<FaceId>& faces) {
-    return [this, &cascades, which = field_.cascades_of(faces)](const Vector3& p, double size) {
-      if (!(size < limits_.largest)) return;
-      for (const int i : which) cascades[i]->add(p, size, blocks_);
-    };
-  }
 
   void add(SizeCascade& cascade, const SizePoint& at) {
     if (!spatial_.has_corners()) return cascade.add(at.point, at.size, blocks_);
@@ -165,64 +164,6 @@ class Builder {
       if (size < limits_.largest) field_.cascades.front()->add(p, size, blocks_);
   }
 
-  FaceCascades empty_cascades() const {
-    FaceCascades cascades;
-    const std::size_t n = field_.on_surface ? shape_.faces.size() : 1;
-    for (std::size_t i = 0; i < n; ++i) cascades.push_back(std::make_unique<SizeCascade>(field_.frame));
-    return cascades;
-  }
-
-  /// Layers grow by their own ratio and end at their own depth. So they are graded in separate cascades with
-  /// the same voxels, which the field then takes over.
-  void add_layers() {
-    const auto& layers = options_.layers;
-    for (const auto& [number, own] : layers.faces) {
-      const FaceId face = FaceId::from_number(number);
-      FaceCascades cascades = empty_cascades();
-      sources_.uniform_face(face, own.first, adder(cascades, {face}));
-      for (const EdgeId id : shape_.edges.ids()) {
-        const auto& faces = shape_.edges[id].faces;
-        if (std::find(faces.begin(), faces.end(), face) == faces.end()) continue;
-        sources_.uniform_edge(id, own.first, adder(cascades, faces));
-      }
-      take_layers(cascades, own);
-    }
-    for (const auto& [number, own] : layers.edges) {
-      FaceCascades cascades = empty_cascades();
-      for (const EdgeId id : shape_.edges.ids()) {
-        const CadEdge& edge = shape_.edges[id];
-        if (edge.number == number && !is_set(unsized_.layered, id))
-          sources_.uniform_edge(id, own.first, adder(cascades, edge.faces));
-      }
-      take_layers(cascades, own);
-    }
-    for (const auto& [number, own] : layers.vertices) {
-      const VertexId vertex = VertexId::from_number(number);
-      FaceCascades cascades = empty_cascades();
-      adder(cascades, faces_of_vertex(vertex))(shape_.vertices[vertex], own.first);
-      take_layers(cascades, own);
-    }
-  }
-
-  void take_layers(FaceCascades& cascades, const SizeLayers& layers) {
-    // A small slope also makes layers of equal height end.
-    constexpr double least_slope = 1e-3;
-    const double slope = std::clamp(layers.ratio - 1, least_slope, std::max(options_.growth, least_slope));
-    const double depth =
-        layers.ratio > 1 ? (layers.last() - layers.first) / (layers.ratio - 1) : layers.first * layers.count;
-    grade(cascades, slope, std::min(layers.first + slope * depth, limits_.largest));
-    for (std::size_t i = 0; i < cascades.size(); ++i) {
-      cascades[i]->for_each([&](int level, const Coord& c, float value) {
-        field_.cascades[i]->lower(level, c, value, blocks_);
-      });
-    }
-  }
-
-  void grade(FaceCascades& cascades, double slope, double most) {
-    if (field_.on_surface) return grade_on_surface(shape_, cascades, slope, most, blocks_, context_);
-    for (const auto& cascade : cascades) cascade->grade(slope, most, {}, blocks_, context_);
-  }
-
   const CadShape& shape_;
   const SizingOptions& options_;
   SizeLimits limits_;
@@ -241,16 +182,10 @@ enum class Named { face, edge, vertex, piece };
 /// Calls visit(what, number from 1, size) for each size that users give to faces, edges and vertices.
 template <class Visit>
 void visit_named_sizes(const CadModel& model, const SizingOptions& options, double size, Visit&& visit) {
-  const auto& layers = options.layers;
   for (const auto& [what, sizes] :
        {std::pair{Named::face, &options.face_sizes}, std::pair{Named::edge, &options.edge_sizes},
         std::pair{Named::vertex, &options.vertex_sizes}}) {
     for (const auto& [number, own] : *sizes) visit(what, number, own);
-  }
-  for (const auto& [what, sizes] :
-       {std::pair{Named::face, &layers.faces}, std::pair{Named::edge, &layers.edges},
-        std::pair{Named::vertex, &layers.vertices}}) {
-    for (const auto& [number, own] : *sizes) visit(what, number, own.first);
   }
   if (options.spacings.empty()) return;
   const auto prescribed = prescribed_edges(model.shape(), options, size);
@@ -301,10 +236,6 @@ SizingField SizingField::build(const CadModel& model, const SizingOptions& optio
 
 double field_voxel(double size_max, double size, double growth) {
   return std::ldexp(size_max, -level_for(size_max, size)) * widening(std::max(growth, least_growth));
-}
-
-double SizeLayers::last() const {
-  return first * std::pow(ratio, count);
 }
 
 Error too_many_blocks(double blocks) {

@@ -38,7 +38,6 @@ struct UnsizedFeatures {
   EdgeFlags edges;    ///< 1 = the edge
   FaceFlags faces;    ///< 1 = the face
   EdgeFlags divided;  ///< 1 = its prescribed division requests no sizes
-  EdgeFlags layered;  ///< 1 = its layers request no sizes
   FaceFlags gridded;  ///< 1 = rows of quads run from side to side: sizes have directions there
 };
 
@@ -64,7 +63,7 @@ CascadeFrame frame_of(const CadModel& model, const SizingOptions& options, const
 /// nothing. h(x) holds what applies in all directions, Sampler::bent() and Sampler::across() add the rest.
 ///
 /// Sources are the global size, curvature of faces and edges, lengths of short edges, sizes requested on
-/// faces, edges and vertices, gaps inside faces, walls, regions, points, layers, and an external grid. They
+/// faces, edges and vertices, gaps inside faces, walls, regions, points, and an external grid. They
 /// are sampled on the model. Values are stored in cascades of OpenVDB float grids with voxels of
 /// size_max/2^k. Each grid is active only where the size is about its voxel, so small features cost no more
 /// than they need; where sizes grow slowly, voxels are wider by as much. Each face has its own cascade, and

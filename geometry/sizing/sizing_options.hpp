@@ -59,37 +59,10 @@ struct EdgeSpacing {
   double bias_both = 1;  ///< the same ratio from both ends to the middle
 };
 
-/// Sizes that grow with the distance like the heights of layers.
-struct SizeLayers {
-  double first = 0;  ///< size at the face, edge or vertex itself
-  double ratio = 1;  ///< ratio of each layer's height to that of the one before
-  int count = 0;     ///< number of layers
-
-  double last() const;  ///< size where the layers end
-};
-
 /// A place that gets a node.
 struct NodePlace {
   std::string name;        ///< of the node's group; empty = Node1, Node2, ...
   Vector3 point{0, 0, 0};  ///< where, in millimeters
-};
-
-/// CAD faces, edges and vertices by number.
-template <class Value>
-struct ByElement {
-  std::map<int, Value> faces;     ///< by CAD face, from 1
-  std::map<int, Value> edges;     ///< by CAD edge, from 1
-  std::map<int, Value> vertices;  ///< by CAD vertex, from 1
-  /// Those of faces (dimension 2), edges (1) or vertices (0).
-  const std::map<int, Value>& of(int dimension) const {
-    return dimension == 2 ? faces : dimension == 1 ? edges : vertices;
-  }
-  /// The same, to be changed.
-  std::map<int, Value>& of(int dimension) {
-    return dimension == 2 ? faces : dimension == 1 ? edges : vertices;
-  }
-  /// Whether there are no entries at all.
-  bool empty() const { return faces.empty() && edges.empty() && vertices.empty(); }
 };
 
 /// What a map has for a number, or `otherwise`.
@@ -119,7 +92,6 @@ struct SizingOptions {
   std::map<int, double> edge_sizes;          ///< CAD edge -> size on it
   std::map<int, double> vertex_sizes;        ///< CAD vertex -> size at it
   std::vector<SizeRegion> regions;           ///< regions of space with sizes
-  ByElement<SizeLayers> layers;              ///< sizes by the distance from faces, edges and vertices
   std::map<int, EdgeSpacing> spacings;       ///< CAD edge -> its division, whatever else is requested
   std::set<int> kept_faces;                  ///< CAD faces whose edges are kept too
   std::set<int> kept_edges;                  ///< CAD edges that are not suppressed, and that no quad crosses
@@ -131,18 +103,13 @@ struct SizingOptions {
   Budget budget;                             ///< limits of the run
 
   /// Whether a setting names the CAD face. \param face its number, from 1
-  bool names_face(int face) const {
-    return face_sizes.contains(face) || layers.faces.contains(face) || kept_faces.contains(face);
-  }
+  bool names_face(int face) const { return face_sizes.contains(face) || kept_faces.contains(face); }
   /// Whether a setting names the CAD edge. \param edge its number, from 1
   bool names_edge(int edge) const {
-    return edge_sizes.contains(edge) || layers.edges.contains(edge) || spacings.contains(edge) ||
-           kept_edges.contains(edge);
+    return edge_sizes.contains(edge) || spacings.contains(edge) || kept_edges.contains(edge);
   }
   /// Whether a setting names the CAD vertex. \param vertex its number, from 1
-  bool names_vertex(int vertex) const {
-    return vertex_sizes.contains(vertex) || layers.vertices.contains(vertex);
-  }
+  bool names_vertex(int vertex) const { return vertex_sizes.contains(vertex); }
 };
 
 }  // namespace quadrille

@@ -170,7 +170,7 @@ void SpatialSizes::read_points(const CadModel& model, const SizingOptions& optio
     throw usage_error("size_points",
                       fmt::format("no point of {} is near the model: check that they are in mm",
                                   options.size_points.string()));
-  cascade_.grade(std::min(growth_, slope_of_hints), limits_.largest, {}, blocks, context);
+  cascade_.grade(std::min(growth_, slope_of_hints), {}, blocks, context);
 }
 
 double SpatialSizes::of_regions(const Vector3& point, double steepest) const {

@@ -90,12 +90,11 @@ class VoxelFinder {
 
 class SurfaceGradation {
  public:
-  SurfaceGradation(const CadShape& shape, FaceCascades& cascades, double slope, double most,
-                   BlockCount& blocks, const ExecutionContext& context)
+  SurfaceGradation(const CadShape& shape, FaceCascades& cascades, double slope, BlockCount& blocks,
+                   const ExecutionContext& context)
       : shape_(shape),
         cascades_(cascades),
         slope_(slope),
-        most_(most),
         blocks_(blocks),
         context_(context),
         bands_(shape.faces.size()),
@@ -133,7 +132,7 @@ class SurfaceGradation {
       if (!bands_[face]) bands_[face] = std::make_unique<FaceBand>(shape_.faces[face]);
       const FaceBand& near = *bands_[face];
       const auto is_near = [&near](const Vector3& p, double voxel) { return near(p, voxel); };
-      cascade_of(face).grade(slope_, most_, is_near, blocks_, context_);
+      cascade_of(face).grade(slope_, is_near, blocks_, context_);
     });
     return std::any_of(graded_.begin(), graded_.end(), [](char graded) { return graded != 0; });
   }
@@ -257,7 +256,7 @@ class SurfaceGradation {
 
   const CadShape& shape_;
   FaceCascades& cascades_;
-  double slope_, most_;
+  double slope_;
   BlockCount& blocks_;
   const ExecutionContext& context_;
   IdVector<FaceId, std::unique_ptr<FaceBand>> bands_;
@@ -268,9 +267,9 @@ class SurfaceGradation {
 
 }  // namespace
 
-void grade_on_surface(const CadShape& shape, FaceCascades& cascades, double slope, double most,
-                      BlockCount& blocks, const ExecutionContext& context) {
-  SurfaceGradation(shape, cascades, slope, most, blocks, context).run();
+void grade_on_surface(const CadShape& shape, FaceCascades& cascades, double slope, BlockCount& blocks,
+                      const ExecutionContext& context) {
+  SurfaceGradation(shape, cascades, slope, blocks, context).run();
 }
 
 }  // namespace quadrille

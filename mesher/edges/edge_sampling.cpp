@@ -87,12 +87,6 @@ struct EdgeDemand {
   CountTargets targets;
 };
 
-/// The counts by the sizing field at the ends of the part of an edge between its heads.
-std::pair<double, double> counts_between(const CountTable& table, const EdgeHeads& heads) {
-  return {table.count_at_length(sum_of(heads.first)),
-          table.count_at_length(table.length() - sum_of(heads.last))};
-}
-
 /// No segment of an edge is shorter unless users give sizes below it by name there.
 double least_size(const SizingField& field, const SamplingPlan& plan, EdgeId edge) {
   return is_set(plan.below_size_min, edge) ? field.limits().least : field.limits().size_min;
@@ -149,7 +143,6 @@ class TargetFinder {
       // The count that a face needs to be meshed at all overrides the wanted counts of opposite edges.
       if (is_finer) targets_.least[i] = std::max(targets_.least[i], to_int(wanted));
       raise_least(i, turning, is_finer || shared_ends[i] != 0 || inner[i] != 0);
-      add_heads(i);
       if (plan_.prescribes(i)) {
         fix_count(i, shared_ends[i], inner[i]);
       } else if (stride != stride_) {
@@ -211,17 +204,6 @@ class TargetFinder {
                                       : std::numeric_limits<int>::max();
   }
 
-  /// Adds the segments on which rows end to those that the sizes give on the rest of the edge.
-  void add_heads(EdgeId i) {
-    const auto heads = plan_.rows.heads.find(i);
-    if (heads == plan_.rows.heads.end()) return;
-    const auto [from, to] = counts_between(demand_.tables[i], heads->second);
-    const int own = heads->second.segments(), least = own + 1;
-    targets_.wanted[i] = (own + std::max(1.0, plan_.factor[i] * (to - from))) / stride_;
-    targets_.least[i] = std::max(targets_.least[i], (least + stride_ - 1) / stride_);
-    targets_.least_of_grids[i] = std::max(targets_.least_of_grids[i], least);
-  }
-
   /// Users may prescribe too few segments to keep the edge's shape, but a loop must stay open.
   void fix_count(EdgeId i, bool shares_both_ends, bool inner) {
     const int segments = plan_.prescribed[i]->segments;
@@ -250,29 +232,6 @@ class TargetFinder {
   CountTargets& targets_ = demand_.targets;
 };
 
-/// Faces with rows along chains, and faces at the edges on which rows end, are not treated as grids, which
-/// would pass the short segments on to edges far away: their sides need not face each other.
-void free_sides_beside_chains(const CadShape& shape, const FaceFlags& used, const RowLines& rows,
-                              FaceOutlines& sides) {
-  FaceFlags freed(shape.faces.size());
-  for (const FaceId face : freed.ids()) freed[face] = has_chain(rows.of_faces, face);
-  for (const auto& [edge, heads] : rows.heads)
-    for (const FaceId face : shape.edges[edge].faces) freed[face] = 1;
-  for (const FaceId face : freed.ids()) {
-    if (!freed[face] || !used[face]) continue;
-    sides[face] = {};
-    sides[face].rest = shape.faces[face].edges();
-  }
-}
-
-/// The places of an edge's nodes: its heads, and between them by the sizes; none if the heads have no room.
-std::vector<double> shares_with_heads(const CountTable& table, int segments, const EdgeHeads& heads) {
-  const std::pair counts = counts_between(table, heads);
-  return heads.shares(table.length(), segments, [&](int k, int between) {
-    return table.length_at(counts.first + (counts.second - counts.first) * k / between);
-  });
-}
-
 /// Throws Error (usage) if a bias makes segments so short that their ends are one point.
 void check_bias(const CadEdge& edge, const PrescribedEdge& divided) {
   const double shortest = divided.shortest(edge.length);
@@ -287,7 +246,7 @@ void check_bias(const CadEdge& edge, const PrescribedEdge& divided) {
                   name, is_both ? spacing.bias_both : spacing.bias, edge.number, divided.segments, shortest));
 }
 
-EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan, const EdgeTables& tables,
+EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan,
                              const IdVector<EdgeId, int>& counts) {
   EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
@@ -297,8 +256,6 @@ EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan, co
     check_bias(shape.edges[i], divided);
     shares[i] = divided.shares;
   }
-  for (const auto& [edge, heads] : plan.rows.heads)
-    if (counts[edge] > 0) shares[edge] = shares_with_heads(tables[edge], counts[edge], heads);
   return shares;
 }
 
@@ -314,13 +271,12 @@ Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const Edg
   Division result{choose_counts(shape, demand.targets, plan.tiny, sides), {}};
   const auto& [counts, chords] = result.counts;
   PlannedSpacing& spacing = result.spacing;
-  spacing.shares = space_chords(shape, sides, chords, demand.tables, counts,
-                                prescribed_shares(shape, plan, demand.tables, counts));
+  spacing.shares =
+      space_chords(shape, sides, chords, demand.tables, counts, prescribed_shares(shape, plan, counts));
   spacing.divided.resize(counts.size());
   spacing.kept.resize(counts.size());
   for (const EdgeId i : counts.ids()) {
     const EdgeId chord = chords.of(i);
-    if (plan.rows.heads.contains(i)) spacing.kept[chord] = 1;
     if (!plan.prescribes(i)) continue;
     spacing.divided[chord] = 1;
     if (!plan.prescribed[i]->shares.empty()) spacing.kept[chord] = 1;
@@ -461,8 +417,7 @@ SamplingPlan::SamplingPlan(const CadShape& shape, EdgeFlags below)
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
                            const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known) {
   EdgeDemand demand = TargetFinder(shape, field, stride, plan, context, known).run(used);
-  FaceOutlines found = find_face_sides(shape, used, plan.tiny, demand.targets.wanted);
-  free_sides_beside_chains(shape, used, plan.rows, found);
+  const FaceOutlines found = find_face_sides(shape, used, plan.tiny, demand.targets.wanted);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);
   IdVector<EdgeId, double> shortest;

@@ -15,7 +15,6 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/edges/face_plan.hpp"
-#include "mesher/edges/row_lines.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -80,7 +79,6 @@ struct SamplingPlan {
   FaceFlags subdivided;  ///< 1 = recombined at twice the size in any case: the face's edges get even numbers
   TinyFeatures tiny;
   PrescribedEdges prescribed;  ///< user divisions; may be empty
-  RowLines rows;               ///< along which faces get rows, and where these end on edges
 
   bool prescribes(EdgeId edge) const { return !prescribed.empty() && prescribed[edge].has_value(); }
   /// Whether the nodes of an edge lie near equal parts of its chord.

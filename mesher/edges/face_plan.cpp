@@ -108,12 +108,9 @@ FacePlans plan_faces(const CadShape& shape, FaceOutlines sides, const SamplingPl
                      const BoundaryNodes& nodes) {
   FacePlans plans(shape.faces.size());
   for (const FaceId face : plans.ids()) {
-    // An odd number of segments may lie on an edge beyond the rows that end there.
-    const bool subdivided =
-        (nodes.stride == 2 || sampling.subdivided[face] != 0) && !has_chain(sampling.rows.of_faces, face);
+    const bool subdivided = nodes.stride == 2 || sampling.subdivided[face] != 0;
     plans[face] = plan_of(shape, shape.faces[face], std::move(sides[face]), subdivided, nodes);
   }
-  for (const auto& [face, lines] : sampling.rows.of_faces) plans[face].row_lines = lines;
   return plans;
 }
 

@@ -6,7 +6,6 @@
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/face_sides.hpp"
 #include "mesher/edges/hole_blocks.hpp"
-#include "mesher/edges/row_lines.hpp"
 
 namespace quadrille {
 
@@ -16,10 +15,9 @@ struct SamplingPlan;
 /// How a face is meshed between the nodes on its edges. What comes after sampling reads this, and does not
 /// look at the outline again.
 struct FacePlan {
-  FaceSides sides;                 ///< of its grid, with facing sides whose counts match
-  std::vector<RowLine> row_lines;  ///< along which it gets rows, if it is not a grid with these rows
+  FaceSides sides;  ///< of its grid, with facing sides whose counts match
   /// Segments of the final mesh for each segment of the mesh that is recombined: 2 for faces that are
-  /// subdivided, unless one of their edges has an odd number of segments, or rows end on one; else 1.
+  /// subdivided, unless one of their edges has an odd number of segments; else 1.
   int stride = 1;
   int grid_quads = 0;                  ///< of a grid between four sides; 0 for other faces
   std::vector<HoleBlock> hole_blocks;  ///< cells that holes replace, by wire without that of the outline

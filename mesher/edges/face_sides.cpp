@@ -15,16 +15,6 @@
 
 namespace quadrille {
 
-double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to) {
-  const CadEdge &before = shape.edges[from.edge], &after = shape.edges[to.edge];
-  const double t = to.forward ? after.first : after.last;
-  const Vector3 in = (from.forward ? 1 : -1) *
-                     EdgeCurve(before).derivative(from.forward ? before.last : before.first),
-                out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
-  const Vector3 normal = surface.normal(parametric_point(to, t));
-  return std::atan2(in.cross(out).dot(normal), in.dot(out));
-}
-
 namespace {
 
 constexpr double corner_turning = 0.7;  // radians; a right-angled corner turns by pi / 2
@@ -36,6 +26,17 @@ struct Walk {
   std::vector<SideEdge> edges;
   std::vector<double> turnings;  // turn at the start of each edge, radians, positive to the left
 };
+
+/// How much the boundary of a face turns from a coedge to the next one: radians, positive to the left.
+double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to) {
+  const CadEdge &before = shape.edges[from.edge], &after = shape.edges[to.edge];
+  const double t = to.forward ? after.first : after.last;
+  const Vector3 in = (from.forward ? 1 : -1) *
+                     EdgeCurve(before).derivative(from.forward ? before.last : before.first),
+                out = (to.forward ? 1 : -1) * EdgeCurve(after).derivative(t);
+  const Vector3 normal = surface.normal(parametric_point(to, t));
+  return std::atan2(in.cross(out).dot(normal), in.dot(out));
+}
 
 class SideFinder {
  public:

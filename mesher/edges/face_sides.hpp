@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
-#include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -63,9 +62,6 @@ struct FaceSides {
 };
 
 using FaceOutlines = IdVector<FaceId, FaceSides>;
-
-/// How much the boundary of a face turns from a coedge to the next one: radians, positive to the left.
-double turning_at(const CadShape& shape, const FaceSurface& surface, const Coedge& from, const Coedge& to);
 
 /// The outlines of the faces used. A corner is a vertex where the boundary turns by about a right angle to
 /// the left. A side may have several edges. Opposite sides are cut into several pairs where their vertices

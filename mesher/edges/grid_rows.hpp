@@ -1,8 +1,5 @@
 #pragma once
-/// Prescribed edge divisions and layers that grids continue as rows. Internal.
-
-#include <optional>
-#include <vector>
+/// Prescribed edge divisions that grids continue as rows. Internal.
 
 #include "geometry/cad/cad_shape.hpp"
 #include "geometry/sizing/edge_spacing.hpp"
@@ -11,22 +8,12 @@
 
 namespace quadrille {
 
-struct GridRows {
-  /// What users prescribe, and the heights of layers on the edges that run away from the layers' own.
-  PrescribedEdges prescribed;
-  /// 1 = prescribed, and all faces along its chord are four-sided or rings: rows of flat quads keep
-  /// the division, and the sizes around need not follow.
-  EdgeFlags divided;
-  EdgeFlags layered;  ///< 1 = its layers become rows
-};
-
-/// Finds the divisions and layers in the options that grids can continue. The layers of an edge become rows
-/// if all its faces are four-sided, and the two sides that run away from it are single edges without a
-/// division of their own. The layers may take up to nine tenths of these sides. The edges that run along
-/// these sides must not have another prescribed number, nor a wanted count above four times or below a
-/// quarter of it. \param sides outlines \param prescribed what users prescribe \param size the size on edges
-/// that options.edge_sizes does not name
-GridRows find_grid_rows(const CadShape& shape, const FaceOutlines& sides, PrescribedEdges prescribed,
-                        const SizingOptions& options, double size);
+/// 1 = the edge's division is prescribed, and all faces along its chord are four-sided or rings: rows of flat
+/// quads keep the division, and the sizes around need not follow. The other edges of the chord must not have
+/// another prescribed number, nor a wanted count above four times or below a quarter of it. \param sides
+/// outlines \param prescribed for each edge \param size the size on edges that options.edge_sizes does not
+/// name
+EdgeFlags find_grid_rows(const CadShape& shape, const FaceOutlines& sides, const PrescribedEdges& prescribed,
+                         const SizingOptions& options, double size);
 
 }  // namespace quadrille

@@ -10,8 +10,8 @@ namespace quadrille {
 /// Fills each hole that is a loop of its own inside one face, or one at each of its two ends, if no point of
 /// the loop is farther than `diameter` from another and no point of the hole farther from its axis. A boss is
 /// removed in the same way if it is no higher than that. What the sizes name stays: edges, vertices and faces
-/// with sizes, layers, segments, or kept. The model itself where there is nothing to fill. Complexity: linear
-/// in edges, for each hole inside a hole again.
+/// with sizes, segments, or kept. The model itself where there is nothing to fill. Complexity: linear in
+/// edges, for each hole inside a hole again.
 SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
                            double diameter);
 

@@ -140,11 +140,10 @@ class Placing {
 
   VertexId on_edge(const Vector3& p, EdgeId edge, double parameter) {
     const int number = shape_->edges[edge].number;
-    if (sizing_.spacings.contains(number) || sizing_.layers.edges.contains(number))
-      throw refused(p,
-                    fmt::format("lies inside Edge{}, whose nodes follow from `segments`, a bias or `layers`: "
-                                "remove one of the two",
-                                number));
+    if (sizing_.spacings.contains(number))
+      throw refused(p, fmt::format("lies inside Edge{}, whose nodes follow from `segments` or a bias: "
+                                   "remove one of the two",
+                                   number));
     return divide_edge(*shape_, edge, {parameter}).front();
   }
 

@@ -29,8 +29,8 @@ inline constexpr double place_tolerance_share = 1e-3;
 /// Finds the vertex at each place. A place inside an edge divides the edge; one inside a face becomes a
 /// vertex inside the face. \param used 1 = the face is meshed. \param size global size, model units. Throws
 /// Error (usage, subject "nodes_at") naming the place, for one that is too far from the faces that are
-/// meshed, and for one inside an edge whose division or layers the options prescribe. Time: the bounding
-/// boxes of the faces once, then some projections for each place.
+/// meshed, and for one inside an edge whose division the options prescribe. Time: the bounding boxes of the
+/// faces once, then some projections for each place.
 PlacedNodes place_nodes(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing,
                         double size);
 

@@ -77,6 +77,29 @@ std::vector<int> numbers_to(int count) {
   return numbers;
 }
 
+/// Drops points that others take the place of. \param target (points) the one that does, or the point itself
+void unite_points(FaceBoundary& boundary, const std::vector<int>& target) {
+  std::vector<int> renumbered(boundary.size(), -1);
+  int n = 0;
+  for (int i = 0; i < boundary.size(); ++i) {
+    if (target[i] != i) continue;
+    renumbered[i] = n;
+    boundary.uv[n] = boundary.uv[i];
+    boundary.points[n] = boundary.points[i];
+    boundary.nodes[n] = boundary.nodes[i];
+    boundary.angles[n] = boundary.angles[i];
+    ++n;
+  }
+  boundary.uv.resize(n);
+  boundary.points.resize(n);
+  boundary.nodes.resize(n);
+  boundary.angles.resize(n);
+  for (auto& segment : boundary.segments) {
+    segment.a = renumbered[target[segment.a]];
+    segment.b = renumbered[target[segment.b]];
+  }
+}
+
 /// Merges points where wires touch, as a hole and a seam may, and along slits.
 void join_touching(FaceBoundary& boundary, const Vector2& scale) {
   constexpr double nearness = 0.01;  // in lengths of the shortest segment at the point
@@ -352,28 +375,6 @@ FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& ca
       !std::all_of(boundary.points.begin(), boundary.points.end(), finite))
     throw failure(name, fmt::format("the boundary of {} runs to infinity: the file may be damaged", name));
   return boundary;
-}
-
-void unite_points(FaceBoundary& boundary, const std::vector<int>& target) {
-  std::vector<int> renumbered(boundary.size(), -1);
-  int n = 0;
-  for (int i = 0; i < boundary.size(); ++i) {
-    if (target[i] != i) continue;
-    renumbered[i] = n;
-    boundary.uv[n] = boundary.uv[i];
-    boundary.points[n] = boundary.points[i];
-    boundary.nodes[n] = boundary.nodes[i];
-    boundary.angles[n] = boundary.angles[i];
-    ++n;
-  }
-  boundary.uv.resize(n);
-  boundary.points.resize(n);
-  boundary.nodes.resize(n);
-  boundary.angles.resize(n);
-  for (auto& segment : boundary.segments) {
-    segment.a = renumbered[target[segment.a]];
-    segment.b = renumbered[target[segment.b]];
-  }
 }
 
 FaceBoundary halved(FaceBoundary boundary) {

@@ -55,10 +55,6 @@ struct FaceBoundary {
 FaceBoundary face_boundary(const CadShape& shape, FaceId face, const CadFace& cad_face,
                            const FaceSurface& surface, const BoundaryNodes& nodes);
 
-/// Drops points, and renumbers the rest. \param target (points) the point itself, the one that takes its
-/// place, or, where no segment ends, -1
-void unite_points(FaceBoundary& boundary, const std::vector<int>& target);
-
 /// The same boundary with each segment cut in two at its middle node, for elements of the final size. Returns
 /// a boundary with stride 1 unchanged.
 FaceBoundary halved(FaceBoundary boundary);

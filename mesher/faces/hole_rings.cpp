@@ -1,15 +1,12 @@
 /// Offsets the hole's loop on the surface line by line, while there is room and segments keep their length.
-/// Rows of given heights fit or do not.
 
 #include "mesher/faces/hole_rings.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "geometry/base/vector.hpp"
-#include "mesher/faces/loop_rows.hpp"
 
 namespace quadrille {
 
@@ -32,8 +29,7 @@ class Segments {
  public:
   struct Segment {
     Vector3 a, b;
-    int loop;                // -1: a vertex inside the face
-    std::size_t number = 0;  // in the loop
+    int loop;  // -1: a vertex inside the face
   };
 
   explicit Segments(std::vector<Segment> segments) : segments_(std::move(segments)) {
@@ -63,32 +59,18 @@ class Segments {
   int axis_ = 0;
 };
 
-/// Consecutive segments of a loop whose place in the rest of the face an outer line takes.
-struct Part {
-  const RowLine* line = nullptr;  // null for rings
-  std::size_t first = 0, count = 0;
-  std::array<int, 2> heads{0, 0};  // segments at the start and at the end on which rows end
-  int hole = -1;                   // index of its rings or rows in the result
-  double reach() const { return line == nullptr ? 0 : sum_of(line->heights); }
-  bool is_open() const { return line != nullptr && !line->is_closed(); }
-};
-
 struct Loop {
   std::vector<int> segments;
   std::vector<HoleRings::Node> nodes;  // all nodes of the loop in the final mesh
   bool regular = true, smooth = true;
   bool outermost = false;
-  std::vector<Part> parts;
+  int hole = -1;  // index of its rings in the result
 };
 
 using RingLine = std::vector<HoleRings::Node>;
 
 bool is_hole(const Loop& loop) {
   return loop.regular && loop.smooth && !loop.outermost && loop.nodes.size() >= fewest_segments;
-}
-
-const FaceBoundary::Segment& segment_of(const FaceBoundary& boundary, const Loop& loop, std::size_t k) {
-  return boundary.segments[loop.segments[k % loop.segments.size()]];
 }
 
 double area_of(const Loop& loop) {
@@ -130,41 +112,12 @@ std::vector<Loop> boundary_loops(const FaceBoundary& boundary) {
   return loops;
 }
 
-/// Finds the segments of a line, and those on which its rows end. \return false if they are not there.
-bool add_part(const FaceBoundary& boundary, const RowLine& line, std::vector<Loop>& loops) {
-  const auto is_along = [&](const Loop& loop, std::size_t k) {
-    const EdgeId edge = segment_of(boundary, loop, k).edge;
-    return std::find(line.edges.begin(), line.edges.end(), edge) != line.edges.end();
-  };
-  for (Loop& loop : loops) {
-    const std::size_t n = loop.segments.size();
-    std::size_t along = 0, first = 0;
-    for (std::size_t k = 0; k < n; ++k) along += is_along(loop, k) ? 1 : 0;
-    if (along == 0) continue;
-    Part part{&line, 0, along};
-    if (part.is_open()) {
-      while (first < n && (!is_along(loop, first) || is_along(loop, first + n - 1))) ++first;
-      for (std::size_t k = 0; k < along; ++k)
-        if (!is_along(loop, first + k)) return false;
-      for (const int end : {0, 1})
-        if (line.ends[end] == RowLine::End::meets) part.heads[end] = static_cast<int>(line.heights.size());
-      part.first = (first + n - part.heads[0]) % n;
-      part.count += part.heads[0] + part.heads[1];
-    }
-    if (!loop.regular || part.count > n || part.is_open() != (part.count < n)) return false;
-    loop.parts.push_back(part);
-    return true;
-  }
-  return false;
-}
-
 std::vector<Segments::Segment> all_segments(const FaceBoundary& boundary, const std::vector<Loop>& loops) {
   std::vector<Segments::Segment> segments;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const auto& nodes = loops[i].nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i),
-                          k * loops[i].segments.size() / nodes.size()});
+      segments.push_back({nodes[k].point, nodes[(k + 1) % nodes.size()].point, static_cast<int>(i)});
   }
   std::vector<char> on_loop(boundary.points.size(), 0);
   for (const auto& segment : boundary.segments) on_loop[segment.a] = on_loop[segment.b] = 1;
@@ -173,20 +126,11 @@ std::vector<Segments::Segment> all_segments(const FaceBoundary& boundary, const 
   return segments;
 }
 
-RowPath path_of(const Loop& loop, const Part& part) {
-  if (!part.is_open()) return {loop.nodes, true, {0, 0}};
-  RowPath path{{}, false, part.heads};
-  for (std::size_t k = part.first; k <= part.first + part.count; ++k)
-    path.nodes.push_back(loop.nodes[k % loop.nodes.size()]);
-  return path;
-}
-
 /// The quads between lines of as many nodes each.
 HoleRings::Hole joined(const std::vector<RingLine>& lines) {
   HoleRings::Hole hole;
   const int n = static_cast<int>(lines.front().size()), count = static_cast<int>(lines.size());
   for (const RingLine& line : lines) hole.points.insert(hole.points.end(), line.begin(), line.end());
-  for (int k = 0; k < n; ++k) hole.outer.push_back((count - 1) * n + k);
   for (int first = 0; first < (count - 1) * n; first += n) {
     for (int k = 0; k < n; ++k) {
       const int next = (k + 1) % n;
@@ -202,71 +146,32 @@ double spacing(const std::vector<HoleRings::Node>& line, std::size_t i) {
                 (line[(i + n - 1) % n].point - line[i].point).norm());
 }
 
-/// The points of the outer line take the place of the part's own, as far as there are as many.
-void place_line(const FaceBoundary& boundary, const Loop& loop, const Part& part, const HoleRings::Hole& hole,
-                FaceBoundary& inside) {
-  const bool has_middles = segment_of(boundary, loop, 0).middle_node >= 0;
-  const int stride = has_middles ? 2 : 1, first_new = inside.size(), covered = static_cast<int>(part.count),
-            count = (static_cast<int>(hole.outer.size()) - (part.is_open() ? 1 : 0)) / stride;
-  const auto end = [&](int k) {
-    if (k == count) return segment_of(boundary, loop, part.first + (part.is_open() ? part.count : 0)).a;
-    return k < covered ? segment_of(boundary, loop, part.first + k).a : first_new + k - covered;
-  };
-  const auto place = [&](int k) {
-    if (end(k) == inside.size()) inside.add(Vector2::Zero(), Vector3::Zero(), -1);
-    const auto& node = hole.points[hole.outer[stride * k]];
-    inside.nodes[end(k)] = HoleRings::node(hole.first + stride * k);
-    inside.uv[end(k)] = node.uv;
-    inside.points[end(k)] = node.point;
-    inside.angles[end(k)] = part.line == nullptr ? M_PI : 0;
-  };
-  for (int k = 0; k < count; ++k) {
-    FaceBoundary::Segment segment = segment_of(boundary, loop, part.first + std::min(k, covered - 1));
-    segment.a = end(k);
-    segment.b = end(k + 1);
-    place(k);
-    if (has_middles) {
-      const auto& middle = hole.points[hole.outer[stride * k + 1]];
-      segment.middle_node = HoleRings::node(hole.first + stride * k + 1);
-      segment.middle_uv = middle.uv;
-      segment.middle_point = middle.point;
-    }
-    inside.segments.push_back(segment);
-  }
-  if (part.is_open()) place(count);
-}
-
-/// Moves the parts of loops with rings or rows to their outer lines, which may be longer.
+/// Moves the loops with rings to their outermost lines.
 FaceBoundary boundary_inside(const FaceBoundary& boundary, const std::vector<Loop>& loops,
                              const std::vector<HoleRings::Hole>& holes) {
   FaceBoundary inside = boundary;
   inside.segments.clear();
   for (const Loop& loop : loops) {
-    const std::size_t n = loop.segments.size();
-    const std::size_t start = loop.parts.empty() ? 0 : loop.parts.front().first;
-    for (std::size_t k = start; k < start + n;) {
-      const auto part = std::find_if(loop.parts.begin(), loop.parts.end(),
-                                     [&](const Part& own) { return own.first == k % n; });
-      if (part == loop.parts.end()) {
-        inside.segments.push_back(segment_of(boundary, loop, k++));
-      } else {
-        place_line(boundary, loop, *part, holes[part->hole], inside);
-        k += part->count;
-      }
+    std::size_t j = 0;
+    for (const int k : loop.segments) {
+      FaceBoundary::Segment& segment = inside.segments.emplace_back(boundary.segments[k]);
+      if (loop.hole < 0) continue;
+      const HoleRings::Hole& hole = holes[loop.hole];
+      const auto next = [&](int& node, Vector2& uv, Vector3& point) {
+        node = HoleRings::node(hole.first + static_cast<int>(j));
+        uv = hole.points[hole.outer(j)].uv;
+        point = hole.points[hole.outer(j++)].point;
+      };
+      next(inside.nodes[segment.a], inside.uv[segment.a], inside.points[segment.a]);
+      inside.angles[segment.a] = M_PI;
+      if (segment.middle_node >= 0) next(segment.middle_node, segment.middle_uv, segment.middle_point);
     }
   }
-  // Drop the points that only rows use.
-  std::vector<int> target(inside.size(), 0);
-  for (const auto& segment : boundary.segments) target[segment.a] = target[segment.b] = -1;
-  for (const auto& segment : inside.segments) target[segment.a] = target[segment.b] = 0;
-  for (int i = 0; i < inside.size(); ++i) target[i] = target[i] < 0 ? -1 : i;
-  unite_points(inside, target);
   return inside;
 }
 
 class RingPlacer {
  public:
-  /// \param loops with the parts that have rows
   RingPlacer(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
              std::vector<Loop> loops)
       : boundary_(boundary),
@@ -276,71 +181,13 @@ class RingPlacer {
         segments_(all_segments(boundary, loops_)) {}
 
   HoleRings run(int rings) && {
-    for (std::size_t i = 0; i < loops_.size(); ++i) {
-      for (Part& part : loops_[i].parts)
-        if (!add_rows(loops_[i], part)) return std::move(result_);
-      if (loops_[i].parts.empty() && is_hole(loops_[i])) add_rings(i, rings);
-    }
+    for (std::size_t i = 0; i < loops_.size(); ++i)
+      if (is_hole(loops_[i])) add_rings(i, rings);
     if (!result_.holes.empty()) result_.inside = boundary_inside(boundary_, loops_, result_.holes);
     return std::move(result_);
   }
 
  private:
-  /// Adds rows along a part of a loop. \return false if they do not fit.
-  bool add_rows(const Loop& loop, Part& part) {
-    const double side = side_of(loop);
-    auto rows = side == 0 ? std::nullopt
-                          : place_rows(path_of(loop, part), part.line->heights, side, surface_, domain_);
-    const auto is_misfit = [&](int point) { return is_too_near(rows->points[point].point, loop, part); };
-    // At its ends, a chain's outer line comes to the loop.
-    const auto skipped = [&](int end) -> long {
-      const RowLine& line = *part.line;
-      return line.is_closed() ? 0 : line.ends[end] == RowLine::End::meets ? 1 : std::ssize(line.heights);
-    };
-    if (!rows || std::any_of(rows->outer.begin() + skipped(0), rows->outer.end() - skipped(1), is_misfit)) {
-      result_.unfit = part.line->edges.front();
-      return false;
-    }
-    result_.has_rows = true;
-    keep(loop, part, std::move(*rows));
-    return true;
-  }
-
-  /// The part of its loop that a segment belongs to, unless rows only end there; null if there is none.
-  const Part* part_along(const Segments::Segment& segment) const {
-    if (segment.loop < 0) return nullptr;
-    const Loop& loop = loops_[segment.loop];
-    const std::size_t n = loop.segments.size();
-    for (const Part& part : loop.parts) {
-      const std::size_t k = (segment.number + n - part.first) % n;
-      if (k >= static_cast<std::size_t>(part.heads[0]) && k + part.heads[1] < part.count) return &part;
-    }
-    return nullptr;
-  }
-
-  /// Whether a point at the end of a part's rows is nearer to a boundary than these are high.
-  bool is_too_near(const Vector3& point, const Loop& loop, const Part& part) const {
-    constexpr double rounding = 0.9;  // rows are straight, loops are curved
-    const double own = rounding * part.reach(), least = part.line->heights.back();
-    double largest = own;
-    for (const Loop& other : loops_)
-      for (const Part& rows : other.parts) largest = std::max(largest, rows.reach() + least);
-    const std::size_t n = loop.segments.size();
-    const EdgeId before = segment_of(boundary_, loop, part.first + part.heads[0] + n - 1).edge,
-                 after = segment_of(boundary_, loop, part.first + part.count - part.heads[1]).edge;
-    bool near = false;
-    segments_.near(point, largest, [&](const Segments::Segment& other) {
-      const Part* along = part_along(other);
-      if (along == nullptr && part.is_open() && other.loop >= 0) {
-        const EdgeId edge = segment_of(boundary_, loops_[other.loop], other.number).edge;
-        if (edge == before || edge == after) return;  // the rows end there
-      }
-      const double room = along == &part ? own : least + (along == nullptr ? 0 : along->reach());
-      near = near || distance_to_segment(point, other.a, other.b) < room;
-    });
-    return near;
-  }
-
   /// Adds up to `rings` rings around a hole.
   void add_rings(std::size_t index, int rings) {
     Loop& loop = loops_[index];
@@ -352,8 +199,16 @@ class RingPlacer {
       if (static_cast<int>(lines.size()) < count + 1) lines.resize(1);
     }
     if (lines.size() < 2) return;
-    loop.parts.push_back({nullptr, 0, loop.segments.size()});
-    keep(loop, loop.parts.back(), joined(lines));
+    HoleRings::Hole hole = joined(lines);
+    for (const int k : loop.segments) {
+      const auto& segment = boundary_.segments[k];
+      hole.nodes.push_back(boundary_.nodes[segment.a]);
+      if (segment.middle_node >= 0) hole.nodes.push_back(segment.middle_node);
+    }
+    hole.first = next_;
+    next_ += static_cast<int>(hole.nodes.size());
+    loop.hole = static_cast<int>(result_.holes.size());
+    result_.holes.push_back(std::move(hole));
   }
 
   /// Unit vector tangent to the surface and normal to a line: to its left if side is 1, to its right if -1.
@@ -389,22 +244,18 @@ class RingPlacer {
     const auto& line = loops_[index].nodes;
     const std::size_t n = line.size();
     std::vector<double> widths(n);
-    double most_reach = 0;
-    for (const Loop& loop : loops_)
-      for (const Part& part : loop.parts) most_reach = std::max(most_reach, part.reach());
     for (std::size_t i = 0; i < n; ++i) {
       const Vector3& p = line[i].point;
       const Vector3 outward = across(line, i, side);
       const double wanted = usual_width * spacing(line, i);
       widths[i] = wanted;
-      segments_.near(p, wanted * (2 * count + rows_beside) + most_reach, [&](const Segments::Segment& other) {
+      segments_.near(p, wanted * (2 * count + rows_beside), [&](const Segments::Segment& other) {
         const bool own = other.loop == static_cast<int>(index);
         if (own &&
             (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())
           return;
         const bool ringed = other.loop >= 0 && is_hole(loops_[other.loop]);
-        const Part* rows = own ? nullptr : part_along(other);
-        const double room = distance_to_segment(p, other.a, other.b) - (rows == nullptr ? 0 : rows->reach());
+        const double room = distance_to_segment(p, other.a, other.b);
         widths[i] = std::min(widths[i], room / ((ringed ? 2 : 1) * count + rows_beside));
       });
     }
@@ -442,21 +293,6 @@ class RingPlacer {
     return true;
   }
 
-  /// Adds a hole to the result.
-  void keep(const Loop& loop, Part& part, HoleRings::Hole hole) {
-    for (std::size_t k = part.first; k < part.first + part.count; ++k) {
-      const auto& segment = segment_of(boundary_, loop, k);
-      hole.nodes.push_back(boundary_.nodes[segment.a]);
-      if (segment.middle_node >= 0) hole.nodes.push_back(segment.middle_node);
-    }
-    if (part.is_open())
-      hole.nodes.push_back(boundary_.nodes[segment_of(boundary_, loop, part.first + part.count).a]);
-    hole.first = next_;
-    next_ += static_cast<int>(hole.outer.size());
-    part.hole = static_cast<int>(result_.holes.size());
-    result_.holes.push_back(std::move(hole));
-  }
-
   const FaceBoundary& boundary_;
   const FaceSurface& surface_;
   const TrimmedDomain& domain_;
@@ -469,15 +305,9 @@ class RingPlacer {
 }  // namespace
 
 HoleRings place_rings(const FaceBoundary& boundary, const FaceSurface& surface, const TrimmedDomain& domain,
-                      int rings, const std::vector<RowLine>& lines) {
+                      int rings) {
   std::vector<Loop> loops = boundary_loops(boundary);
-  for (const RowLine& line : lines) {
-    if (add_part(boundary, line, loops)) continue;
-    HoleRings unfit;
-    unfit.unfit = line.edges.front();
-    return unfit;
-  }
-  if (lines.empty() && (loops.size() < 2 || std::none_of(loops.begin(), loops.end(), is_hole))) return {};
+  if (loops.size() < 2 || std::none_of(loops.begin(), loops.end(), is_hole)) return {};
   return RingPlacer(boundary, surface, domain, std::move(loops)).run(rings);
 }
 

@@ -30,11 +30,10 @@ class RingJoiner {
       for (std::size_t k = 0; k < hole.nodes.size(); ++k) add(hole.points[k], true);
       whole_.nodes.insert(whole_.nodes.end(), hole.nodes.begin(), hole.nodes.end());
     }
-    find_outermost();
     for (int i = 0; i < count; ++i) {
       if (renumbered_[i] < 0) copy(i, false);
     }
-    for (int& point : outermost_) point = renumbered_[point];
+    find_outermost();
     for (auto quad : old.mesh.quads) {
       for (int& corner : quad) corner = renumbered_[corner];
       whole_.surface_mesh.mesh.quads.push_back(quad);
@@ -52,29 +51,23 @@ class RingJoiner {
     renumbered_[i] = whole_.add(inside_.surface_mesh.place_of(i), fixed, inside_.pole[i] != 0);
   }
 
-  /// Finds the point inside of each node on the outermost lines, by its number in HoleRings. Where such a
-  /// line ends on the loop, the point is the loop's.
+  /// Finds the point of each node on the outermost lines, by its number in HoleRings.
   void find_outermost() {
     std::size_t nodes = 0;
-    for (const auto& hole : rings_.holes) nodes += hole.outer.size();
+    for (const auto& hole : rings_.holes) nodes += hole.nodes.size();
     outermost_.assign(nodes, -1);
     for (std::size_t i = 0; i < inside_.nodes.size(); ++i) {
-      if (inside_.nodes[i] < 0) outermost_[HoleRings::number(inside_.nodes[i])] = static_cast<int>(i);
-    }
-    for (std::size_t h = 0; h < rings_.holes.size(); ++h) {
-      const HoleRings::Hole& hole = rings_.holes[h];
-      for (std::size_t j = 0; j < hole.outer.size(); ++j)
-        if (hole.outer[j] < static_cast<int>(hole.nodes.size()))
-          renumbered_[outermost_[hole.first + j]] = first_on_loop_[h] + hole.outer[j];
+      if (inside_.nodes[i] < 0) outermost_[HoleRings::number(inside_.nodes[i])] = renumbered_[i];
     }
   }
 
   void add_rings(std::size_t index) {
     const HoleRings::Hole& hole = rings_.holes[index];
     std::vector<int> number(hole.points.size(), -1);
-    for (std::size_t k = 0; k < hole.nodes.size(); ++k)
+    for (std::size_t k = 0; k < hole.nodes.size(); ++k) {
       number[k] = first_on_loop_[index] + static_cast<int>(k);
-    for (std::size_t j = 0; j < hole.outer.size(); ++j) number[hole.outer[j]] = outermost_[hole.first + j];
+      number[hole.outer(k)] = outermost_[hole.first + k];
+    }
     for (std::size_t i = 0; i < number.size(); ++i)
       if (number[i] < 0) number[i] = add(hole.points[i], false);
     const bool clockwise = area_of(hole) < 0;

@@ -21,7 +21,6 @@ struct FaceMesh {
   std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
   double q_min = 0;                            ///< lowest q of the quads
   bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
-  bool rows = false;                           ///< rows with prescribed heights: no node moves any more
   std::shared_ptr<const MeshSurface> surface;  ///< surface that uv refer to; null = the face's own
   std::vector<Vector3> normals;  ///< (n) unit normals, if faces are taken as one (crossed_edges.hpp)
   /// (n) distance of each point from the surface, where quads on it would be inverted; empty = all lie on it.

@@ -92,7 +92,6 @@ class FaceMesher {
  private:
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
     using Layout = Candidate::Layout;
-    if (!plan_.row_lines.empty()) return candidate.layout == Layout::rings && !best;
     if (candidate.layout == Layout::grid) return recipe_.mapped;
     if (candidate.direct)
       return best && candidate.layout == layout_ && chart_.boundary.stride == 2 && recipe_.clean_up &&
@@ -117,19 +116,12 @@ class FaceMesher {
 
   std::optional<FaceMesh> ringed_mesh(const Candidate& candidate) {
     if (!rings_)
-      rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings,
-                           plan_.row_lines);
-    if (rings_->unfit.exists())
-      throw usage_error("layers", fmt::format("the `layers` along Edge{} do not fit into Face{}: use fewer "
-                                              "or thinner layers, or a smaller size on the edge",
-                                              shape_.edges[rings_->unfit].number, face_.number()));
+      rings_ = place_rings(chart_.boundary, surface_, enclosed_domain(chart_.boundary), options_.rings);
     if (rings_->holes.empty()) return std::nullopt;
     FaceQuads quads = quads_inside(rings_->inside, candidate);
     add_ring_quads(quads, *rings_, surface_);
-    if (!rings_->has_rows) smooth(quads, surface_, options_.improve, context_);
-    FaceMesh result = finish(std::move(quads));
-    result.rows = rings_->has_rows;
-    return result;
+    smooth(quads, surface_, options_.improve, context_);
+    return finish(std::move(quads));
   }
 
   FaceQuads quads_inside(const FaceBoundary& boundary, const Candidate& candidate) {

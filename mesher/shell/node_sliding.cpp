@@ -266,15 +266,11 @@ class Round {
 using EdgeParameters = IdVector<EdgeId, std::vector<double>>;
 
 /// The slidable nodes: those inside a single edge, unless its spacing is prescribed.
-std::vector<char> slidable_nodes(const BoundaryNodes& nodes, const FaceStates& faces) {
+std::vector<char> slidable_nodes(const BoundaryNodes& nodes) {
   std::vector<char> uses = nodes.edges_at_nodes();
   for (const auto& edge : nodes.edges) {
     if (!edge.kept) continue;
     for (const int node : edge.nodes) uses[node] = 2;
-  }
-  for (const FaceState& face : faces) {
-    if (!face.mesh || !face.mesh->rows) continue;
-    for (const int node : face.mesh->nodes) uses[node] = 2;
   }
   for (char& use : uses) use = use == 1;
   return uses;
@@ -285,7 +281,7 @@ class EdgeSliding {
  public:
   /// \param sampled before any node moved
   EdgeSliding(const CadShape& shape, BoundaryNodes& nodes, const EdgeParameters& sampled, FaceStates& faces)
-      : shape_(shape), nodes_(nodes), sampled_(sampled), slidable_(slidable_nodes(nodes, faces)) {
+      : shape_(shape), nodes_(nodes), sampled_(sampled), slidable_(slidable_nodes(nodes)) {
     instances_ = Rows<Instance>(nodes_.points.size(), [&](auto&& add) {
       for (FaceState& face : faces) {
         if (face.mesh == nullptr) continue;
@@ -483,7 +479,7 @@ SurfaceMesh surface_mesh(const FaceMesh& mesh) {
 /// Refills patches around quads outside the limits, and activates only their nodes.
 void mend(FaceState& face, const ExecutionContext& context) {
   const auto outside = [](double value) { return value > outside_objective; };
-  if (face.mesh->grid || face.mesh->rows || !face.mesh->off.empty() ||
+  if (face.mesh->grid || !face.mesh->off.empty() ||
       std::none_of(face.objective.begin(), face.objective.end(), outside))
     return;
   FaceMesh& mesh = *face.mesh;
@@ -520,8 +516,8 @@ class NodeSliding {
       FaceState& state = states_[face];
       state.mesh = &mesh;
       state.cad_face = &shape.faces[face];
-      // Rows along a loop stay, and so do grids beside an edge with prescribed spacing.
-      state.keeps_inside = mesh.rows || (mesh.grid && nodes.plans[face].keeps_rows()) || !mesh.off.empty();
+      // Grids beside an edge with prescribed spacing stay.
+      state.keeps_inside = (mesh.grid && nodes.plans[face].keeps_rows()) || !mesh.off.empty();
       state.turn_as_surface();
     }
     std::stable_sort(largest_first_.begin(), largest_first_.end(),
@@ -597,12 +593,7 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
     sliding.finish();
   }
   if (!options.clean_up) return {};
-  EdgeFlags uncrossed = kept;
-  for (const FaceId face : faces.ids()) {
-    if (!faces[face] || !faces[face]->rows) continue;
-    for (const EdgeId edge : shape.faces[face].edges()) uncrossed[edge] = 1;
-  }
-  const std::vector<CompositeFace> composites = join_smooth_faces(shape, uncrossed, nodes, faces, context);
+  const std::vector<CompositeFace> composites = join_smooth_faces(shape, kept, nodes, faces, context);
   {
     NodeSliding sliding(shape, nodes, faces, sampled, context);
     sliding.wake_only(composites);

@@ -31,11 +31,9 @@ constexpr double sharp = 40;  // degrees: no quad in such a corner keeps within 
 
 class Finder {
  public:
-  Finder(const CadShape& shape, const ShellMesh& mesh, const ByElement<SizeLayers>& layers,
-         const std::map<int, int>& cut_corners)
+  Finder(const CadShape& shape, const ShellMesh& mesh, const std::map<int, int>& cut_corners)
       : shape_(shape),
         mesh_(mesh),
-        layers_(layers),
         limits_(limits_of(mesh)),
         vertex_at_(cut_corners.begin(), cut_corners.end()) {}
 
@@ -44,7 +42,6 @@ class Finder {
     if (poor_.empty()) return {};
     index_segments();
     corners_ = corners_by_node(mesh_.points.size(), mesh_.quads);
-    drop_layers();
     measure_angles();
     for (const PoorQuad& poor : poor_) add(poor);
     std::vector<ShellMesh::PoorQuads> result;
@@ -89,14 +86,13 @@ class Finder {
     }
   }
 
-  bool is_poor(int quad, bool may_be_flat = false) const {
+  bool is_poor(int quad) const {
     const auto& x = mesh_.points;
     const auto& [a, b, c, d] = mesh_.quads[quad];
     const bool is_finer = std::binary_search(mesh_.finer_quads.begin(), mesh_.finer_quads.end(), quad);
     const CriteriaValues values = measure_criteria(x[a], x[b], x[c], x[d]);
     for (std::size_t i = 0; i < criterion_count; ++i) {
       const auto criterion = static_cast<Criterion>(i);
-      if (may_be_flat && (criterion == Criterion::aspect || criterion == Criterion::min_length)) continue;
       if (!is_of_shape(criterion) && (criterion == Criterion::warp || is_finer)) continue;
       if (limits_.fails(criterion, values[i])) return true;
     }
@@ -115,35 +111,6 @@ class Finder {
       edge_of_.try_emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
     for (const CadEdge& edge : shape_.edges) length_of_[edge.number] += edge.length;  // pieces add up
     for (const auto& corner : mesh_.corners) vertex_at_.emplace(corner.node, corner.vertex);
-  }
-
-  /// Drops the quads that are only flat or low, in rows that layers request: they were asked for.
-  void drop_layers() {
-    if (layers_.edges.empty()) return;
-    std::vector<char> in_layers(mesh_.quads.size(), 0);
-    for (const ShellMesh::Segment& segment : mesh_.segments) {
-      const auto layers = layers_.edges.find(segment.edge);
-      if (layers == layers_.edges.end()) continue;
-      for (const Side corner : corners_[segment.nodes[0]]) {
-        for (const int k : {index_of(corner), (index_of(corner) + 3) & 3}) {
-          if (side(element_of(corner), k) == side_key(segment.nodes[0], segment.nodes[1]))
-            mark_rows(element_of(corner), k, layers->second.count, in_layers);
-        }
-      }
-    }
-    std::erase_if(poor_,
-                  [&](const PoorQuad& poor) { return in_layers[poor.quad] && !is_poor(poor.quad, true); });
-  }
-
-  /// Marks a quad and those beyond it within its face, as many as there are rows. \param k its side on the
-  /// edge
-  void mark_rows(int quad, int k, int rows, std::vector<char>& marks) const {
-    for (int row = 0; row < rows && quad >= 0; ++row) {
-      marks[quad] = 1;
-      k = (k + 2) & 3;
-      if (edge_of_.contains(side(quad, k))) return;
-      std::tie(quad, k) = across(quad, k);
-    }
   }
 
   /// The angles at vertices of the faces with poor quads.
@@ -254,7 +221,6 @@ class Finder {
 
   const CadShape& shape_;
   const ShellMesh& mesh_;
-  const ByElement<SizeLayers>& layers_;
   const CriteriaLimits limits_;
   std::vector<PoorQuad> poor_;
   std::unordered_map<int, std::unordered_map<int, double>>
@@ -270,9 +236,8 @@ class Finder {
 }  // namespace
 
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
-                                             const ByElement<SizeLayers>& layers,
                                              const std::map<int, int>& cut_corners) {
-  return Finder(shape, mesh, layers, cut_corners).run();
+  return Finder(shape, mesh, cut_corners).run();
 }
 
 }  // namespace quadrille

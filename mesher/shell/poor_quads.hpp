@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
-#include "geometry/sizing/sizing_options.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
 namespace quadrille {
@@ -14,10 +13,9 @@ namespace quadrille {
 /// least size that has a side of the quad, else its face, with the corner of less than 40 degrees that the
 /// quad lies in, or the edges that come close there. One entry for each edge, and for each face and reason,
 /// those with the most quads first. The quads that only warp are left out: the curvature of the part does
-/// that, and so are those that are only flat or low, in the rows that `layers` requests along edges. Linear
-/// in the mesh. \param cut_corners by node: the vertex of the corner that a face ends before (spikes.hpp)
+/// that. Linear in the mesh. \param cut_corners by node: the vertex of the corner that a face ends before
+/// (spikes.hpp)
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
-                                             const ByElement<SizeLayers>& layers = {},
                                              const std::map<int, int>& cut_corners = {});
 
 }  // namespace quadrille

@@ -32,7 +32,7 @@ struct SizeFidelity {
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field, const CadShape& shape);
 
 /// The quads, ascending, with a side under half of ShellMesh::size_min where sizes below it are wanted, as
-/// beside edges and faces that users give smaller sizes, segments or layers. One lookup for each.
+/// beside edges and faces that users give smaller sizes or segments. One lookup for each.
 std::vector<int> finer_quads(const ShellMesh& mesh, const SizingField& field);
 
 }  // namespace quadrille

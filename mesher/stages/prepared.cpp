@@ -8,8 +8,8 @@
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
 #include "mesher/edges/coplanar_faces.hpp"
+#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/hole_filling.hpp"
-#include "mesher/edges/row_lines.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/remedies.hpp"
 
@@ -52,7 +52,7 @@ CadModel divided(const CadModel& model, FaceFlags used, const MeshOptions& optio
   const SizingOptions& sizing = options.sizing;
   const CadShape& source = model.shape();
   for (const CadEdge& edge : source.edges)
-    if (sizing.spacings.contains(edge.number) || sizing.layers.edges.contains(edge.number))
+    if (sizing.spacings.contains(edge.number))
       for (const FaceId face : edge.faces) used[face] = 0;
   const auto shape = divided_at_slivers(source, used, reach);
   return shape ? CadModel(shape) : model;
@@ -88,19 +88,6 @@ FaceOutlines find_outlines(const Prepared& prepared, const TinyFeatures& tiny) {
   return find_face_sides(prepared.shape, prepared.meshed, tiny, wanted);
 }
 
-/// Finds the rows for prescribed divisions and layers: in grids if possible, else along lines of edges.
-GridRows find_rows(const Prepared& prepared, const FaceOutlines& sides, SamplingPlan& plan) {
-  const CadShape& shape = prepared.shape;
-  const SizingOptions& sizing = prepared.options.sizing;
-  const double size = prepared.limits.largest;
-  if (sizing.spacings.empty() && sizing.layers.edges.empty()) return {};
-  GridRows rows = find_grid_rows(shape, sides, std::move(plan.prescribed), sizing, size);
-  plan.prescribed = rows.prescribed;
-  plan.rows = find_row_lines(shape, sides, prepared.meshed, plan.tiny, plan.prescribed, sizing.layers);
-  for (const EdgeId edge : shape.edges.ids()) rows.layered[edge] |= plan.rows.along[edge];
-  return rows;
-}
-
 }  // namespace
 
 Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Preparation& how)
@@ -124,8 +111,8 @@ Prepared::Prepared(const CadModel& source, const MeshOptions& settings, const Pr
   plan.prescribed = prescribed_edges(shape, options.sizing, limits.largest);
   meshed = leave_out_tiny(suppressed, plan);
   const FaceOutlines outlines = find_outlines(*this, plan.tiny);
-  GridRows rows = find_rows(*this, outlines, plan);
-  unsized = {suppressed.edges(), plan.tiny.merged_faces, std::move(rows.divided), std::move(rows.layered),
+  unsized = {suppressed.edges(), plan.tiny.merged_faces,
+             find_grid_rows(shape, outlines, plan.prescribed, options.sizing, limits.largest),
              FaceFlags(shape.faces.size())};
   for (const FaceId face : outlines.ids())
     unsized.gridded[face] = options.sizing.aspect > 1 && outlines[face].is_filled();
@@ -145,8 +132,6 @@ SizingField sizes_for(const Prepared& prepared, ExecutionContext& context) {
   SizingOptions sizing = options.sizing;
   sizing.budget.bytes_an_element = Budget::bytes_an_element_of_order(options.order);
   if (options.force) sizing.budget = Budget::unlimited();
-  for (const auto& [vertex, layers] : prepared.plan.rows.steps)
-    sizing.layers.vertices.emplace(vertex.number(), layers);
   const ElementBudget budget(prepared.model, sizing, prepared.asked, context);
   SizingField field = SizingField::build(prepared.model, sizing, context, prepared.unsized);
   budget.check(field);

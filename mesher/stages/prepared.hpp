@@ -8,7 +8,6 @@
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/sizing/sizing_field.hpp"
 #include "mesher/edges/edge_sampling.hpp"
-#include "mesher/edges/grid_rows.hpp"
 #include "mesher/edges/placed_nodes.hpp"
 #include "mesher/edges/simplified_model.hpp"
 #include "mesher/edges/suppressed_features.hpp"

@@ -172,15 +172,13 @@ ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
     result.faces.push_back(status_of(face, prepared, boundary, faces));
   result.suppressed_features = suppressed_features(prepared, boundary.plan.tiny);
   result.kept = kept_features(shape, boundary.suppressed);
-  for (const auto& [edge, why] : boundary.plan.rows.without)
-    result.warnings.push_back(fmt::format("`layers` on Edge{} give sizes but no rows: {}", edge, why));
   result.filled_holes = prepared.simple.holes;
   result.crossed_edges = crossed_edges(prepared, crossed);
   const std::map<int, int> corners = cut_corners(prepared, boundary.plan.tiny, result);
   name_placed_nodes(prepared, result);
   result.size_min = prepared.limits.size_min;
   if (prepared.limits.least < prepared.limits.size_min) result.finer_quads = finer_quads(result, run.field);
-  result.poor_quads = poor_quads(shape, result, prepared.options.sizing.layers, corners);
+  result.poor_quads = poor_quads(shape, result, corners);
   return result;
 }
 

@@ -200,8 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Mistake{"mesh IN OUT --size 1e-200", 2, "1e-200 mm is requested"},
                     Mistake{"mesh IN OUT --elements-per-diagonal 1e300", 2, "mm is requested"},
                     Mistake{"mesh IN OUT --size-on Face1=1e-200", 2, "mm is requested"},
-                    Mistake{"mesh IN OUT --layers Edge1=1e-300,1.2,6", 2, "mm is requested"},
-                    Mistake{"mesh IN OUT --layers Vertex1=1e-300,1.2,6", 2, "mm is requested"}));
+                    Mistake{"mesh IN OUT --size-on Edge1=1e-300", 2, "mm is requested"},
+                    Mistake{"mesh IN OUT --size-on Vertex1=1e-300", 2, "mm is requested"}));
 
 /// Refused before anything is spent: within 5 s of CPU, and 2 GB of memory beyond what libraries map.
 class TooMuch : public testing::TestWithParam<std::pair<const char*, const char*>> {};
@@ -886,7 +886,6 @@ TEST(Command, TakesListsWithSpaces) {
        "--size-on Face1=1,Edge5=0.7,Vertex2=0.5,Vertex3=1"},
       {"--size-in box:0,0,0,5,5,5=1 sphere:30,20,10,4=0.8",
        "--size-in box:0,0,0,5,5,5=1 --size-in sphere:30,20,10,4=0.8"},
-      {"--layers Edge4=0.3,1.2,6 Face6=0.4,1.2,3", "--layers Edge4=0.3,1.2,6 --layers Face6=0.4,1.2,3"},
       {"--faces Face1 Face2,Face3 Face4", "--faces Face1,Face2,Face3,Face4"},
       {"--groups faces edges", "--groups faces,edges"}};
   for (const auto& [spaces, plain] : lists) {

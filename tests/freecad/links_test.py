@@ -255,13 +255,16 @@ class OldDocumentTest(unittest.TestCase):
         self.assertEqual(sizes, {("Face5",): 1.0, ("Edge2",): 0.5})
         self.assertNotIn("Sizes", part.PropertiesList)
 
-    def test_properties_that_are_gone_are_dropped(self):
-        part = self.document.Part
-        part.addProperty("App::PropertyStringList", "Match", "Mesh", "")
-        part.Match = ["Face1=Face5"]
-        part.Proxy.onDocumentRestored(part)
-        self.assertNotIn("Match", part.PropertiesList)
-        self.assertEqual(part.Status, state.UP_TO_DATE)
+    def test_options_that_are_gone_are_left_behind(self):
+        path = self.document.FileName
+        self.document.Part.addProperty("App::PropertyStringList", "Layers", "Mesh").Layers = ["Edge1=0.1,1.2,6"]
+        self.document.Part.addProperty("App::PropertyStringList", "Match", "Mesh").Match = ["Face1=Face5"]
+        self.document.save()
+        FreeCAD.closeDocument(self.document.Name)
+        self.document = FreeCAD.openDocument(path)
+        for name in ("Layers", "Match"):
+            self.assertNotIn(name, self.document.Part.PropertiesList)
+        self.assertEqual(self.document.Part.Status, state.UP_TO_DATE)
 
 
 class GuardTest(unittest.TestCase):

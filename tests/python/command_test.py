@@ -43,8 +43,8 @@ class CommandTest(unittest.TestCase):
             settings.arguments(),
             ["--size", "2.0", "--order", "2", "--faces", "Face3,Face7", "--size-on", "Edge4=0.5", "--partial"],
         )
-        self.assertEqual(MeshSettings(segments={"Edge4": 20}, layers={"Edge1": (0.1, 1.2, 6)}).arguments(),
-                         ["--layers", "Edge1=0.1,1.2,6", "--segments", "Edge4=20"])
+        self.assertEqual(MeshSettings(segments={"Edge4": 20}, size_in=["sphere:0,0,0,5=1,9"]).arguments(),
+                         ["--size-in", "sphere:0,0,0,5=1,9", "--segments", "Edge4=20"])
         with self.assertRaises(TypeError):
             MeshSettings(seed=1)
 
@@ -91,8 +91,7 @@ class CommandTest(unittest.TestCase):
         for setting in SETTINGS:
             value = values.get(setting["kind"], setting["choices"][-1] if setting["choices"] else None)
             value = {"nodes": 9, "groups": ["faces"], "chord_error": "0.5", "size_in": ["sphere:0,0,0,5=1,9"],
-                     "segments": ["Edge4=6"], "bias": ["Edge4=1.2"], "bias_both": ["Edge4=1.2"],
-                     "layers": ["Edge4=1,1.2,3"]}.get(setting["name"], value)
+                     "segments": ["Edge4=6"], "bias": ["Edge4=1.2"], "bias_both": ["Edge4=1.2"]}.get(setting["name"], value)
             value = {"mm": 0.5, "s": 100.0}.get(setting["unit"], value) if setting["kind"] == "number" else value
             if value is None:
                 continue  # files

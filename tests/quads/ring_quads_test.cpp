@@ -38,7 +38,6 @@ class RingQuads : public ::testing::Test {
     for (const double half : {1.0, 2.0})
       for (int i = 0; i < 4; ++i) hole.points.push_back({corner(half, i), surface_.point(corner(half, i))});
     hole.nodes = {4, 5, 6, 7};
-    hole.outer = {4, 5, 6, 7};
     for (int i = 0; i < 4; ++i) hole.quads.push_back({4 + i, 4 + (i + 1) % 4, (i + 1) % 4, i});
     rings_.holes.push_back(hole);
     for (const double half : {4.0, 2.0})

@@ -99,12 +99,11 @@ TEST(EdgeSuppression, CrossesAnEdgeThatForcesPoorQuads) {
 TEST(EdgeSuppression, LeavesWhatUsersName) {
   int edge = 0;
   const CadModel model = plate_with_slanted_edge(edge);
-  std::vector<MeshOptions> all(5);
+  std::vector<MeshOptions> all(4);
   all[0].keep_features = true;
   all[1].sizing.kept_faces = {1};
   all[2].sizing.edge_sizes = {{edge, 1.5}};
   all[3].sizing.spacings[edge].segments = 30;
-  all[4].sizing.layers.edges[edge] = {1, 1.2, 2};
   for (const MeshOptions& options : all) {
     const ShellMesh mesh = meshed(model, 1.5, options);
     EXPECT_TRUE(mesh.crossed_edges.empty());

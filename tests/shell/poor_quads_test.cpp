@@ -87,21 +87,6 @@ TEST(PoorQuads, ASharpCornerIsNamed) {
   }));
 }
 
-TEST(PoorQuads, RowsOfLayersMayBeFlat) {
-  const CadModel model = sheet({{{0, 0}, {60, 0}, {60, 20}, {30, 20}, {30, 40}, {0, 40}}});
-  MeshOptions options;
-  options.sizing.size = 5;
-  options.sizing.layers.edges[1] = {0.05, 1.2, 8};
-  ExecutionContext context(1);
-  const ShellMesh mesh = quadrille::mesh(model, options, context);
-  ASSERT_GT(failing(mesh), 20);
-  EXPECT_LT(quads_of(mesh), failing(mesh) / 4);
-  // Without the layers that were asked for, the same quads are poor.
-  int sum = 0;
-  for (const auto& found : poor_quads(model.shape(), mesh)) sum += found.quads;
-  EXPECT_EQ(sum, failing(mesh));
-}
-
 TEST(PoorQuads, NothingIsToldOfLargeFeaturesAndUnknownSizes) {
   const CadModel model = sheet({{{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
   ShellMesh mesh = meshed(model, 4, 1);

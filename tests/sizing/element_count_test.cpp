@@ -26,7 +26,7 @@ TEST(ElementCount, IsTheAreaOverTheSizeSquared) {
   }
 }
 
-TEST(ElementBudget, RegionsAndLayersAreEstimatedBeforeAFieldIsMade) {
+TEST(ElementBudget, RegionsAndSizesOfFacesAreEstimatedBeforeAFieldIsMade) {
   const CadModel model = CadModel::read(sample_model("box").path());
   const FaceFlags used(model.face_count(), 1);
   ExecutionContext context;
@@ -63,11 +63,11 @@ TEST(ElementBudget, RegionsAndLayersAreEstimatedBeforeAFieldIsMade) {
     EXPECT_EQ(refused(), share > 1) << share;
   }
   options.regions.clear();
-  options.layers.faces[1] = {1e-6, 1.2, 5};
+  options.face_sizes[1] = 1e-6;
   EXPECT_TRUE(refused());
-  options.layers.faces.clear();
+  options.face_sizes.clear();
   options.budget = Budget();
-  options.layers.edges[1] = {1e-7, 1.2, 5};
+  options.edge_sizes[1] = 1e-7;
   EXPECT_THROW(SizingField::build(model, options, context), Error);
 }
 

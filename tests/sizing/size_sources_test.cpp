@@ -130,32 +130,6 @@ TEST(SizeSources, PointsAskForTheirSize) {
   std::filesystem::remove(path);
 }
 
-TEST(SizeSources, LayersGrowByTheirRatioAndEnd) {
-  const CadModel box = sample("box");
-  for (const Gradation gradation : {Gradation::space, Gradation::surface}) {
-    SizingOptions options = settings_of("layers", {"Edge1=0.2,1.1,10"}).mesh.sizing;
-    options.size = 4;
-    options.gradation = gradation;
-    const EdgeCurve curve(box.shape().edges[edge_id(1)]);
-    const Vector3 a = curve.point(box.shape().edges[edge_id(1)].first),
-                  b = curve.point(box.shape().edges[edge_id(1)].last);
-    const Vector3 along = (b - a).normalized();
-    int inside = 0;
-    look(box, options, [&](const Vector3& p, double size) {
-      const double t = std::clamp((p - a).dot(along), 0.0, (b - a).norm());
-      const double distance = (p - a - t * along).norm();
-      // Layers end where heights of ratio 1.1 are 3.19 together; then sizes grow as fast as they may.
-      const double depth = 0.2 * (std::pow(1.1, 10) - 1) / 0.1;
-      const double expected =
-          std::min(4.0, 0.2 + 0.1 * std::min(distance, depth) + 0.3 * std::max(0.0, distance - depth));
-      EXPECT_LE(size, 1.35 * expected) << p.transpose();
-      EXPECT_GE(size, 0.5 * expected) << p.transpose();
-      inside += distance < depth;
-    });
-    EXPECT_GT(inside, 100);
-  }
-}
-
 TEST(SizeSources, ChordErrorIsTheHeightOverTheChord) {
   const CadModel cylinder = sample("cylinder");
   const CadEdge* circle = nullptr;
@@ -332,9 +306,6 @@ TEST(SizeSources, RefuseWhatMakesNoSense) {
        {"Edge4", "Edge4=0", "Edge4=2.5", "Edge4=-3", "Edge=3", "Face4=3", "Edge4=3,Edge4=5", ""})
     refused("segments", {text});
   for (const char* text : {"Edge4=0", "Edge4=11", "Edge4=-1.2", "Edge4=x"}) refused("bias", {text});
-  for (const char* text : {"Edge4=1", "Edge4=0.1,1.2", "Edge4=0,1.2,6", "Edge4=0.1,0.9,6",
-                           "Edge4=0.1,1.2,2.5", "Solid1=0.1,1.2,6"})
-    refused("layers", {text});
   for (const char* text : {"0", "-1", "%", "1 %", "mm", "nan"}) refused("chord_error", {text});
   const CadModel box = sample("box");
   const auto senseless = [&](const std::string& name, const std::string& text) {
@@ -353,7 +324,6 @@ TEST(SizeSources, RefuseWhatMakesNoSense) {
   senseless("size_in", "halfspace:31,0,0,1,0,0=1");
   senseless("segments", "Edge99=4");
   senseless("bias", "Edge99=1.1");
-  senseless("layers", "Vertex99=1,1.1,2");
 }
 
 }  // namespace

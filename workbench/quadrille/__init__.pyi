@@ -126,7 +126,6 @@ def mesh(
     size_field_unit: Optional[float] = None,
     size_points: Optional[_Path] = None,
     size_in: Optional[Sequence[str]] = None,
-    layers: Optional[_Entries] = None,
     segments: Optional[_Entries] = None,
     bias: Optional[_Entries] = None,
     bias_both: Optional[_Entries] = None,

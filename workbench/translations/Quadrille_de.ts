@@ -756,10 +756,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>Größe in</translation>
     </message>
     <message>
-        <source>Layers</source>
-        <translation>Schichten</translation>
-    </message>
-    <message>
         <source>Segments</source>
         <translation>Segmente</translation>
     </message>
@@ -974,10 +970,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
         <translation>{}: seine {} Flächen brauchen mehr als {}, wenn Elemente nicht größer als ein Zehntel des Teils sind</translation>
-    </message>
-    <message>
-        <source>layers: {} of {} quads along it are the first of {} rows</source>
-        <translation>Schichten: {} von {} Vierecken daran sind die ersten von {} Reihen</translation>
     </message>
     <message>
         <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
@@ -1373,10 +1365,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
     <message>
         <source>Rings of quads around each hole without corners, if there is room for them; 0 = none</source>
         <translation>Ringe von Vierecken um jedes Loch ohne Ecken, wo Platz dafür ist; 0 = keine</translation>
-    </message>
-    <message>
-        <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
-        <translation>Größen nach dem Abstand von Fläche, Kante oder Ecke, wie Schichthöhen wachsen: erste Höhe, Verhältnis und Anzahl, etwa Edge4=0.1,1.2,6; leer = keine</translation>
     </message>
     <message>
         <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around the region the size grows to the global one over that length; empty = none</source>

@@ -756,10 +756,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>Taille dans</translation>
     </message>
     <message>
-        <source>Layers</source>
-        <translation>Couches</translation>
-    </message>
-    <message>
         <source>Segments</source>
         <translation>Segments</translation>
     </message>
@@ -974,10 +970,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>{}: its {} faces need more than {}, unless elements are larger than a tenth of the part</source>
         <translation>{} : ses {} faces en demandent plus de {}, sauf si les éléments dépassent un dixième de la pièce</translation>
-    </message>
-    <message>
-        <source>layers: {} of {} quads along it are the first of {} rows</source>
-        <translation>couches : {} des {} quadrangles le long sont les premiers de {} rangées</translation>
     </message>
     <message>
         <source>{}: not on the list of what is to be kept; the table says why the mesher itself keeps an edge</source>
@@ -1373,10 +1365,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
     <message>
         <source>Rings of quads around each hole without corners, if there is room for them; 0 = none</source>
         <translation>Anneaux de quadrangles autour de chaque trou sans coin, là où il y a de la place ; 0 = aucun</translation>
-    </message>
-    <message>
-        <source>Sizes by distance from a face, edge or vertex that grow like the heights of layers: first height, ratio and number, such as Edge4=0.1,1.2,6; empty = none</source>
-        <translation>Tailles selon la distance à une face, une arête ou un sommet, comme croissent des couches : première hauteur, rapport et nombre, par exemple Edge4=0.1,1.2,6 ; vide = aucune</translation>
     </message>
     <message>
         <source>Sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around the region the size grows to the global one over that length; empty = none</source>

@@ -11,8 +11,9 @@ _TYPES = {"Faces": links.PROPERTY, "FlippedFaces": links.PROPERTY, "Status": "Ap
 
 def migrate(mesh) -> None:
     """Converts the properties of a mesh object that was just read to this version's types, with the same meaning."""
-    if "Match" in mesh.PropertiesList:  # pairs of faces with the same nodes, which the mesher no longer makes
-        mesh.removeProperty("Match")
+    for name in ("Match", "Layers"):  # options that the mesher no longer has
+        if name in mesh.PropertiesList:
+            mesh.removeProperty(name)
     # add_properties() adds those that are missing altogether.
     for name, kind in _TYPES.items():
         if name not in mesh.PropertiesList or mesh.getTypeIdOfProperty(name) == kind:

@@ -461,7 +461,7 @@ def store_quality(mesh, fem_mesh, report: Dict) -> None:
     mesh.OutsidePercent = criteria.get("outside_percent", 0.0)
     shortest = criteria.get("by_criterion", {}).get("min_length", {}).get("limit")
     mesh.LeastSize = 2 * shortest if shortest else 0.0
-    mesh.Findings = findings.as_text(report, findings.layers_in(fem_mesh, getattr(mesh, "Layers", ())))
+    mesh.Findings = findings.as_text(report)
     mesh.CrossedLines = [FreeCAD.Vector(*point) for edge in report.get("crossed_edges", ()) for point in edge["line"]]
     mesh.FinerQuads = report.get("finer_quads", [])
     mesh.Seconds = sum(report.get("seconds", {}).values())

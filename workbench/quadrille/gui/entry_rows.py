@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The part of the panel with sizes that are entries in list properties: sizes in space, layers, numbers of segments and their
+"""The part of the panel with sizes that are entries in list properties: sizes in space, numbers of segments and their
 bias, places of nodes. Each row shows where an entry applies, and its numbers, which are edited in place. Numbers of segments on
 edges and places of nodes are added here, other new entries in the property editor."""
 
@@ -20,7 +20,6 @@ PROPERTIES = tuple(setting["property"] for setting in SETTINGS if setting["prope
 #: What the rows call them.
 _WORDS = {
     "SizeIn": QT_TRANSLATE_NOOP("Quadrille", "Size in"),
-    "Layers": QT_TRANSLATE_NOOP("Quadrille", "Layers"),
     "Segments": QT_TRANSLATE_NOOP("Quadrille", "Segments"),
     "Bias": QT_TRANSLATE_NOOP("Quadrille", "Bias"),
     "BiasBoth": QT_TRANSLATE_NOOP("Quadrille", "Bias from both ends"),

@@ -59,11 +59,10 @@ def kept_with(kept: Sequence[str], names: Sequence[str], on: bool) -> List[str]:
 
 def rows_of(mesh) -> List[Row]:
     """The findings of a mesh, the most harmful first: what was left out, by its distance; what forces poor quads, by their number;
-    what is crossed or joined; what was kept although it is small; and what became of layers."""
+    what is crossed or joined; and what was kept although it is small."""
     found = findings_of(mesh)
     kept = [Row((entry["name"],), translate("Quadrille", "small, but meshed: {}").format(_told(entry["why"]))) for entry in found["kept"]]
-    lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept,
-             list(_asked(found)))
+    lists = (sorted(_left_out(found), key=lambda row: -row.distance), list(_poor(found)), list(_crossed(found)), kept)
     return [row for rows in lists for row in _first(rows)]
 
 
@@ -96,12 +95,6 @@ def _crossed(found: Dict[str, List[Any]]) -> Iterable[Row]:
         yield Row((edge["name"],), text, edge.get("distance", 0.0))  # documents of older versions have none
     for face in found["merged_faces"]:
         yield Row((face["name"],), _told(face["note"]))
-
-
-def _asked(found: Dict[str, List[Any]]) -> Iterable[Row]:
-    for layer in found.get("layers", ()):
-        yield Row((layer["name"],), translate("Quadrille", "layers: {} of {} quads along it are the first of {} rows").format(
-            layer["full"], layer["quads"], layer["asked"]))
 
 
 def _told(sentence: str) -> str:
