@@ -609,20 +609,6 @@ TopoDS_Shape cone_without_apex() {
   return face_within(cone, {closed_edge(new Geom2d_Line({0, 10}, {1, 0}), cone)});
 }
 
-/// The side of a cylinder with a hole that lies over the seam, which nothing splits there, and a face in it.
-TopoDS_Shape hole_over_seam(double center) {
-  TopoDS_Face side = cylinder_side();
-  side.Free(Standard_True);
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(side);
-  const TopoDS_Edge rim = closed_edge(new Geom2d_Circle(gp_Ax2d({center, 15}, {0.6, 0.8}), 0.4), surface);
-  TopoDS_Wire hole;
-  const BRep_Builder builder;
-  builder.MakeWire(hole);
-  builder.Add(hole, rim.Reversed());
-  builder.Add(side, hole);
-  return compound({side, face_within(surface, {rim})});
-}
-
 /// The part of a cylinder between z = 0 and z = 20 whose wire is closed by edges that are said to be
 /// degenerate, as translators do where its parametric curves lie two periods apart.
 TopoDS_Shape false_poles() {
@@ -899,10 +885,6 @@ std::vector<TroubleModel> all_models() {
       {"no_bounds", "a sphere with a hole for its only wire", holed_sphere, false,
        400 * pi - 100 * std::cos(0.2) * pi * std::cyl_bessel_j(1, 0.5), 3},
       {"no_apex", "a cone bounded by a circle alone", cone_without_apex, false, 50 * pi, 2},
-      {"hole_over_seam", "a hole over the seam that nothing splits there", [] { return hole_over_seam(0.1); },
-       false, 600 * pi},
-      {"hole_over_seam_end", "the same, over the other end of the parameter plane",
-       [] { return hole_over_seam(2 * pi); }, false, 600 * pi},
       {"false_poles", "edges said to be degenerate that are not", false_poles, false, 400 * pi},
       {"narrow_frame", "a frame of width size / 20", narrow_frame, false, 800 - 39.9 * 19.9},
       {"narrow_band", "a band along a circle, of width size / 30", narrow_band, false,
