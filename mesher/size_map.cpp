@@ -48,8 +48,6 @@ constexpr Kind kinds[] = {
      [](Options& to, const Options& from) { to.short_edges = from.short_edges; }},
     {"proximity", [](const Options& o) { return o.proximity > 0; },
      [](Options& to, const Options& from) { to.proximity = from.proximity; }},
-    {"proximity-walls", [](const Options& o) { return o.proximity_walls > 0; },
-     [](Options& to, const Options& from) { to.proximity_walls = from.proximity_walls; }},
     {"size-on",
      [](const Options& o) {
        return !o.face_sizes.empty() || !o.edge_sizes.empty() || !o.vertex_sizes.empty();

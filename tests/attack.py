@@ -37,7 +37,7 @@ GIGABYTE = 1 << 30
 #: Users that nobody is. Each run under a limit on processes has one of its own, since the limit counts a user's.
 NOBODIES = itertools.cycle(range(20000 + os.getpid() % 20000, 60000))
 #: What users add to sizes.
-WAYS = [["--imprint"], ["--proximity", 2], ["--proximity-walls", 2], ["--gradation", "space"], ["--keep-features"],
+WAYS = [["--imprint"], ["--proximity", 2], ["--gradation", "space"], ["--keep-features"],
         ["--aspect", 1], ["--rings", 2], ["--chord-error", "3%"], ["--strict"]]
 COLUMNS = ["meshes", "reported errors", "reported crashes", "UNREPORTED", "late", "invalid", "left over"]
 

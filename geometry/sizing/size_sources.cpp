@@ -40,9 +40,7 @@ SizeSources::SizeSources(const CadShape& shape, const SizingOptions& options, co
       unsized_(unsized),
       spatial_(spatial),
       context_(context),
-      prescribed_(prescribed_edges(shape, options, limits.largest)) {
-  if (options.proximity_walls > 0) rays_.emplace(shape, options.proximity_walls * limits.size_min, context);
-}
+      prescribed_(prescribed_edges(shape, options, limits.largest)) {}
 
 /// The size requested on an edge itself and by its length.
 double SizeSources::cap_of(const CadEdge& edge, bool by_shape) const {
@@ -155,7 +153,6 @@ void SizeSources::face(FaceId id, const Sink& sink) const {
   if (is_set(unsized_.faces, id) && !options_.face_sizes.contains(id.number())) return;
   const bool gridded = is_set(unsized_.gridded, id);
   if (options_.proximity > 0 || (options_.short_edges && !gridded)) gaps(id, sink);
-  if (rays_) walls(id, sink);
   const FaceSurface surface(shape_.faces[id]);
   const double cap = value_or(options_.face_sizes, id.number(), limits_.largest);
   const bool curved = !surface.planar() && has_curvature_sizes(options_);
@@ -188,18 +185,6 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
     const int steps = to_int(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
   }
-}
-
-/// Requests options.proximity_walls elements through the thickness of each wall.
-void SizeSources::walls(FaceId id, const Sink& sink) const {
-  const double n = options_.proximity_walls, inward = shape_.faces[id].reversed ? 1 : -1;
-  const FaceSurface surface(shape_.faces[id]);
-  const auto size_at = [&](const SurfacePoint& at, const Vector2& uv) {
-    const auto thickness = rays_->thickness(at.point, inward * surface.normal(at, uv), n * limits_.largest);
-    const double size = thickness ? std::max(*thickness / n, limits_.size_min) : limits_.largest;
-    return FaceSize{size, size};
-  };
-  sample_face(id, surface, limits_.largest, size_at, sink);
 }
 
 /// Samples a face in cells of its parameter plane, at first about as long as `spacing`.

@@ -2,7 +2,6 @@
 /// The sizes that a model's edges and faces request, as points. Internal.
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -11,7 +10,6 @@
 #include "geometry/sizing/sizing_field.hpp"
 #include "geometry/sizing/sizing_options.hpp"
 #include "geometry/sizing/spatial_sizes.hpp"
-#include "geometry/sizing/wall_rays.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -45,7 +43,6 @@ class SizeSources {
   };
 
   void gaps(FaceId id, const Sink& sink) const;
-  void walls(FaceId id, const Sink& sink) const;
   double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
   double cap_of(const CadEdge& edge, bool by_shape) const;
   Error too_many_segments(const CadEdge& edge, double segments) const;
@@ -68,7 +65,6 @@ class SizeSources {
   const SpatialSizes& spatial_;
   const ExecutionContext& context_;
   PrescribedEdges prescribed_;
-  std::optional<WallRays> rays_;  // set if walls request sizes
 };
 
 }  // namespace quadrille

@@ -85,7 +85,6 @@ struct SizingOptions {
   double aspect = 4;
   bool short_edges = true;                   ///< edges and parts of faces that are small request small sizes
   double proximity = 0;                      ///< elements across a gap inside a face; 0 = any number
-  double proximity_walls = 0;                ///< elements through the thickness of a wall; 0 = any number
   double growth = 0.3;                       ///< gradation: largest |grad size|
   Gradation gradation = Gradation::surface;  ///< how sizes grow
   std::map<int, double> face_sizes;          ///< CAD face -> size on it

@@ -32,7 +32,6 @@ class OptionBytes {
     options.growth = 0.3 + 0.01 * (bytes_[2] % 128);
     options.gradation = flag(0) ? Gradation::space : Gradation::surface;
     options.proximity = bytes_[3] % 4;
-    options.proximity_walls = bytes_[3] / 4 % 4;
     options.budget.elements = 2e4;
     return options;
   }

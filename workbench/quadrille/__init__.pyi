@@ -116,7 +116,6 @@ def mesh(
     gradation: Optional[str] = None,
     chord_error: Optional[str] = None,
     proximity: Optional[float] = None,
-    proximity_walls: Optional[float] = None,
     order: Optional[int] = None,
     strategy: Optional[str] = None,
     faces: Optional[Sequence[Union[str, SupportsIndex]]] = None,
