@@ -203,11 +203,6 @@ std::vector<Setting> make_table() {
       {"proximity", "proximity", "Proximity", "Across gaps", mesh, none, 0, 1000, false, none,
        "elements across a gap inside a face, between its loops and rims; 0 = any number",
        [](Settings& v) -> double& { return v.mesh.sizing.proximity; }},
-      {"proximity_walls", "proximity-walls", "ProximityWalls", "Across walls", mesh, none, 0, 1000, false,
-       none,
-       "elements through the thickness of a wall: sizes on its skins are at most its thickness divided by "
-       "this number; 0 = any number",
-       [](Settings& v) -> double& { return v.mesh.sizing.proximity_walls; }},
       {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
        "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",
        "1: four-node quads; 2: eight-node quads, better for shells",
