@@ -22,7 +22,6 @@
 #include "mesher/mesh/entity_name.hpp"
 #include "mesher/mesh/skins.hpp"
 #include "mesher/quadrille.hpp"
-#include "mesher/shell/area_check.hpp"
 #include "mesher/shell/size_fidelity.hpp"
 
 namespace quadrille::command {
@@ -111,15 +110,13 @@ struct Measured {
   Coincidences coincidences;
   Contacts contacts;
   std::vector<int> bad_skins;  ///< faces, see faces_with_bad_skins()
-  std::optional<Volumes> volumes;
 };
 
 /// Measures in a thread of its own while the files are written, if more than one thread may be used.
-std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, bool with_volumes,
-                                       int threads) {
+std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& model, int threads) {
   const auto policy =
       std::launch::deferred | (usable_threads(threads) > 1 ? std::launch::async : std::launch::deferred);
-  return std::async(policy, [&mesh, &model, with_volumes, threads] {
+  return std::async(policy, [&mesh, &model, threads] {
     return on_threads(threads, [&] {
       Measured measured;
       oneapi::tbb::parallel_invoke(
@@ -131,9 +128,6 @@ std::future<Measured> start_to_measure(const ShellMesh& mesh, const CadModel& mo
               measured.contacts = touching;
             else if (!touching.faces.empty())
               found.sewing_suffices = touching.free_edges && found.quads == 0;
-          },
-          [&] {
-            if (with_volumes) measured.volumes = volumes(model, mesh);
           },
           [&] { measured.elements = measure(mesh); },
           [&] { measured.bad_skins = faces_with_bad_skins(mesh); });
@@ -224,8 +218,6 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
     if (meshed.sizes) report["sizes"] = meshed.sizes->json();
     if (meshed.middle) report["middle_surface"] = midsurface_json(*meshed.middle);
     if (meshed.middle) report["skins"] = {{"turned_over", entity_names(2, measured.bad_skins)}};
-    if (measured.volumes)
-      report["volume"] = {{"cad", measured.volumes->cad}, {"mesh", measured.volumes->mesh}};
     report["coincident"] = coincident_to_json(measured, tried);
     if (!meshed.model.pieces().empty()) report["imprinted"] = imprinted_to_json(meshed.model);
     write_report(report, arguments.report);
@@ -274,7 +266,7 @@ void run(const MeshArguments& arguments) {
   const ShellMesh result = middle ? mesh(*middle, options, context) : mesh(model, options, context);
   context.check();
   std::future<Measured> measured;
-  if (is_told) measured = start_to_measure(result, model, !arguments.report.empty(), settings.threads);
+  if (is_told) measured = start_to_measure(result, model, settings.threads);
   write_outputs(result, arguments, work);
   list_left_out(result);
   if (measured.valid()) tell_quality(result, measured.get(), {model, middle, sizes}, arguments, context);

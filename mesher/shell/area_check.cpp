@@ -2,21 +2,13 @@
 
 #include "mesher/shell/area_check.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepGProp.hxx>
-#include <BRepGProp_Domain.hxx>
-#include <BRepGProp_Face.hxx>
-#include <BRepGProp_Vinert.hxx>
-#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -143,32 +135,6 @@ double cad_area(const CadShape& shape, FaceId id, bool is_plane) {
   return 0.5 * std::abs(twice);
 }
 
-/// The volume within the closed shells, as BRepGProp::VolumeProperties() integrates it, but on all threads.
-double cad_volume(const CadShape& shape) {
-  std::vector<TopoDS_Face> faces;
-  for (TopExp_Explorer shell(shape.shape, TopAbs_SHELL); shell.More(); shell.Next()) {
-    if (!BRep_Tool::IsClosed(shell.Current())) continue;
-    for (TopExp_Explorer face(shell.Current(), TopAbs_FACE); face.More(); face.Next()) {
-      const TopAbs_Orientation side = face.Current().Orientation();
-      if (side == TopAbs_FORWARD || side == TopAbs_REVERSED) faces.push_back(TopoDS::Face(face.Current()));
-    }
-  }
-  Vector3 middle = Vector3::Zero();
-  for (const Vector3& vertex : shape.vertices) middle += vertex / static_cast<double>(shape.vertices.size());
-  std::vector<double> parts(faces.size());  // between each face and the middle
-  oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t i) {
-    constexpr double accuracy = 1e-3;
-    BRepGProp_Face face;
-    face.Load(faces[i]);
-    BRepGProp_Domain domain(faces[i]);
-    BRepGProp_Vinert volume;
-    volume.SetLocation(gp_Pnt(middle.x(), middle.y(), middle.z()));
-    volume.Perform(face, domain, accuracy);
-    parts[i] = volume.Mass();
-  });
-  return std::accumulate(parts.begin(), parts.end(), 0.0);
-}
-
 }  // namespace
 
 std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh,
@@ -231,36 +197,6 @@ std::vector<AreaDifference> area_differences(const CadModel& model, const ShellM
                      joined.contains(face.number()) ? " with the faces that share quads with it" : "",
                      number_text(areas[face], integrals[face]), number_text(integrals[face], areas[face])),
          planes[face] && difference(face) > large * whole});
-  }
-  return result;
-}
-
-std::optional<Volumes> volumes(const CadModel& model, const ShellMesh& mesh) {
-  const auto is_left_out = [](const ShellMesh::Face& face) {
-    return face.status == FaceStatus::failed || face.status == FaceStatus::skipped;
-  };
-  if (model.solid_count() == 0 || std::any_of(mesh.faces.begin(), mesh.faces.end(), is_left_out)) return {};
-  bool closed = true;
-  const auto start = [&](Side side) { return mesh.quads[element_of(side)][index_of(side)]; };
-  for_each_shared_side(
-      mesh.points.size(), no_check,
-      [&](int, int, std::span<const Side> sides) {
-        closed = closed && sides.size() == 2 && start(sides[0]) != start(sides[1]);
-      },
-      mesh.quads);
-  if (!closed) return {};
-  Volumes result;
-  const Vector3 middle =
-      0.5 * (model.box_min() + model.box_max());  // far from the origin digits would be lost
-  for (const auto& quad : mesh.quads) {
-    const auto& [a, b, c, d] = quad;
-    const Vector3 center = 0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]);
-    result.mesh += quad_area_vector(mesh.points, quad).dot(center - middle) / 3;
-  }
-  try {
-    result.cad = cad_volume(model.shape());
-  } catch (const Standard_Failure&) {
-    return {};
   }
   return result;
 }

@@ -1,7 +1,6 @@
 #pragma once
-/// Checks areas and volumes of the mesh against those of the CAD model.
+/// Checks areas of the mesh against those of the CAD model.
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,15 +27,5 @@ enum class AreasChecked { all, planes };
 /// \param checked the differences that are certain are found either way
 std::vector<AreaDifference> area_differences(const CadModel& model, const ShellMesh& mesh,
                                              AreasChecked checked = AreasChecked::all);
-
-/// Volumes of solids, model units cubed.
-struct Volumes {
-  double cad = 0;   ///< by OpenCASCADE's adaptive integration
-  double mesh = 0;  ///< within its flat quads
-};
-
-/// The volumes of a model of solids and of its mesh. Nothing if the mesh is open, if faces have no mesh, if
-/// solids share faces, or if OpenCASCADE cannot integrate. Takes milliseconds a face.
-std::optional<Volumes> volumes(const CadModel& model, const ShellMesh& mesh);
 
 }  // namespace quadrille
