@@ -323,46 +323,6 @@ std::string fixed_edges(const CadShape& shape, const CountTargets& targets, Incl
   return numbers.empty() ? "" : fmt::format("Edge{}", fmt::join(numbers, ", Edge"));
 }
 
-/// The number that users prescribe for the first of the edges included, with all its pieces.
-template <class Includes>
-int segments_of_whole(const CadShape& shape, const CountTargets& targets, Includes&& includes) {
-  const auto ids = targets.fixed.ids();
-  const auto first = std::find_if(ids.begin(), ids.end(), includes);
-  int sum = 0;
-  for (const EdgeId edge : ids)
-    if (shape.edges[edge].number == shape.edges[*first].number) sum += targets.fixed[edge];
-  return sum;
-}
-
-/// What to do about a face that stays odd. \param names of the edges around it that are fixed
-std::string numbers_that_work(const CadShape& shape, const CountTargets& targets, FixedChords chords,
-                              FaceOutlines& sides, const BalancedCounts& counts, FaceId face,
-                              const std::string& names) {
-  std::vector<std::string> ways;
-  std::set<EdgeId> around;
-  for (const EdgeId edge : targets.fixed.ids())
-    if (targets.fixed[edge] > 0 && is_on(edge, sides[face])) around.insert(chords.chords.of(edge));
-  for (const EdgeId chord : around) {
-    const auto is_here = [&](EdgeId edge) {
-      return chords.chords.of(edge) == chord && is_on(edge, sides[face]);
-    };
-    const std::string edges = fixed_edges(shape, targets, is_here);
-    const int fixed = chords.fixed[chord];
-    chords.fixed[chord] = fixed + counts.units[chord];
-    const std::vector<FaceId> left = CountProblem(targets, chords, sides).make_faces_even().odd;
-    chords.fixed[chord] = fixed;
-    if (left.size() >= counts.odd.size() || std::find(left.begin(), left.end(), face) != left.end()) continue;
-    const int all = segments_of_whole(shape, targets, is_here), less = all - counts.units[chord],
-              more = all + counts.units[chord];
-    const std::string way =
-        less > 0 ? fmt::format("{} or {} on {}", less, more, edges) : fmt::format("{} on {}", more, edges);
-    // Several pieces of an edge give the same.
-    if (std::find(ways.begin(), ways.end(), way) == ways.end()) ways.push_back(way);
-  }
-  if (ways.empty()) return "change the numbers on two or more of " + names;
-  return fmt::format("use {}", fmt::join(ways, ", or "));
-}
-
 /// Throws if fixed numbers cannot be kept.
 void hold_fixed(const CadShape& shape, const CountTargets& targets, const FixedChords& chords,
                 FaceOutlines& sides, const BalancedCounts& counts) {
@@ -381,11 +341,13 @@ void hold_fixed(const CadShape& shape, const CountTargets& targets, const FixedC
     const std::string names =
         fixed_edges(shape, targets, [&](EdgeId edge) { return is_on(edge, sides[face]); });
     if (names.empty()) continue;
-    throw usage_error("segments",
-                      fmt::format("`segments` leaves Face{} with {} around it: {}", face.number(),
-                                  targets.stride == 2 ? "a number of segments that is no multiple of four"
-                                                      : "an odd number of segments",
-                                  numbers_that_work(shape, targets, chords, sides, counts, face, names)));
+    const bool is_halved = targets.stride == 2;
+    throw usage_error(
+        "segments",
+        fmt::format(
+            "`segments` leaves Face{} with {} around it: use {} more or less on one of {}", face.number(),
+            is_halved ? "a number of segments that is no multiple of four" : "an odd number of segments",
+            targets.stride, names));
   }
 }
 
