@@ -40,7 +40,6 @@ void check_files(const SizesArguments& arguments) {
   require_usable(
       {model_inputs(arguments.input, arguments.settings.mesh.sizing),
        with_outputs(arguments.outputs, {{"--report", arguments.report},
-                                        {"--picture", arguments.picture, ".png"},
                                         {"--write-size-field", arguments.write_size_field, ".vdb"}})});
 }
 
@@ -120,8 +119,6 @@ void write_outputs(const SizeMap& map, const SizesArguments& arguments, Work& wo
     work.cancel.wrote(output);
   }
   if (!arguments.report.empty()) write_file(arguments.report, summary_of(map).dump(2) + "\n");
-  if (!arguments.picture.empty())
-    draw_apart(arguments.picture, work.context, [&] { write_size_picture(map, arguments.picture); });
 }
 
 /// Counts the quads that each face would get, at the size that gives the wanted number if there is one.
@@ -184,14 +181,13 @@ void add_sizes_command(CLI::App& app) {
       ->add_option("-o,--output", arguments->outputs,
                    "the surface with sizes and their sources: .vtu or .json; may be given more than once")
       ->allow_extra_args(false);
-  command->add_option("--picture", arguments->picture, "draw the sizes into a .png");
   command->add_option("--write-size-field", arguments->write_size_field,
                       "write the sizes as OpenVDB grids (.vdb)");
   command->add_option("--report", arguments->report, "write area, quads and sizes of each source as JSON");
   auto* count_only =
       command->add_flag("--count-only", arguments->count_only,
                         "only print the expected number of quads; the report lists it by face");
-  for (const auto* output : {"--output", "--picture", "--write-size-field"})
+  for (const auto* output : {"--output", "--write-size-field"})
     count_only->excludes(command->get_option(output));
   add_settings(*command, *arguments, settings_of_meshing());
   command->get_option("--elements-per-diagonal")->excludes("--size");

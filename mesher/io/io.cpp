@@ -212,10 +212,6 @@ void write_sizes_vtu(const SizeMap& map, const std::filesystem::path& path) {
   write_file(path, vtu_sizes(map));
 }
 
-void write_size_picture(const SizeMap& map, const std::filesystem::path& path, int width, int height) {
-  write_file(path, size_picture(map, width, height));
-}
-
 ShellMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>* notes) {
   const Format* format = format_of(path);
   if (format == nullptr || format->read == nullptr)

@@ -68,9 +68,4 @@ QUADRILLE_API void write_picture(const ShellMesh& mesh, const std::filesystem::p
 /// or not at all. Throws Error (failure) when it cannot be written.
 QUADRILLE_API void write_sizes_vtu(const SizeMap& map, const std::filesystem::path& path);
 
-/// Draws a PNG of the sizes, colored by their logarithm, and next to them the governing sources. Works
-/// without a screen. Throws Error (failure) when the picture cannot be drawn.
-QUADRILLE_API void write_size_picture(const SizeMap& map, const std::filesystem::path& path, int width = 1800,
-                                      int height = 1000);
-
 }  // namespace quadrille

@@ -71,10 +71,8 @@ inline constexpr ModuleFunction<std::string, const OutputMesh&, const std::vecto
 inline constexpr ModuleFunction<std::string, const ShellMesh&, const std::vector<double>&, int, int>
     vtk_picture{Library::pictures, "_draw"};
 
-/// The bytes of a .vtu file and of a PNG of the sizes; width and height.
+/// The bytes of a .vtu file of the sizes.
 inline constexpr ModuleFunction<std::string, const SizeMap&> vtu_sizes{Library::vtk, "_sizes"};
-inline constexpr ModuleFunction<std::string, const SizeMap&, int, int> size_picture{Library::pictures,
-                                                                                    "_sizes"};
 
 /// The mesh in a file, given its ending: .stl, .obj, .ply, .vtk, .vtu or .vtp.
 inline constexpr ModuleFunction<ImportedMesh, const std::string&, const std::string&> vtk_mesh{Library::vtk,

@@ -156,7 +156,7 @@ def start(mesh, wanted: Optional[state.Wanted] = None, command: Optional[str] = 
     return SizesJob(shape, state.settings_to_use(mesh, wanted, found), command).start()
 
 
-#: Colors from the smallest to the largest size, on a logarithmic scale: those of `quadrille sizes --picture` (viridis).
+#: Colors from the smallest to the largest size, on a logarithmic scale (viridis).
 _STOPS = np.array([(0.267, 0.005, 0.329), (0.229, 0.322, 0.546), (0.128, 0.567, 0.551), (0.369, 0.789, 0.383),
                    (0.993, 0.906, 0.144)])
 #: Smallest ratio of the ends of a color range, so that the range is never empty.
