@@ -1,12 +1,10 @@
-/// Sums area over squared size at samples of the faces; cells at borders of regions are halved.
+/// Sums area over squared size at samples of the faces. What lies between them is counted in the field.
 
 #include "geometry/sizing/element_count.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,14 +19,8 @@ namespace quadrille {
 
 namespace {
 
-/// About the largest possible number of elements on a face: two squares over the diagonal of its bounding
+/// About the largest possible number of elements: on each face two squares over the diagonal of its bounding
 /// box (a sphere needs a little more than one).
-double most_on(const CadFace& face, double size) {
-  const Bnd_Box box = box_of(face.face);
-  return box.IsVoid() ? 0 : 2 * box.SquareExtent() / (size * size);
-}
-
-/// About the largest possible number of elements.
 double most_elements(const CadShape& shape, const FaceFlags& used, double size, double limit,
                      const ExecutionContext& context) {
   const double all = std::pow(shape.diagonal() / size, 2) * static_cast<double>(shape.faces.size());
@@ -37,7 +29,9 @@ double most_elements(const CadShape& shape, const FaceFlags& used, double size, 
   for (const FaceId face : shape.faces.ids()) {
     if (count > limit) break;
     context.check();
-    if (used[face]) count += most_on(shape.faces[face], size);
+    if (!used[face]) continue;
+    const Bnd_Box box = box_of(shape.faces[face].face);
+    if (!box.IsVoid()) count += 2 * box.SquareExtent() / (size * size);
   }
   return count;
 }
@@ -60,60 +54,6 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
   return samples;
 }
 
-/// What regions request on a face, by cells of its parameter plane. Cells at borders of regions are halved.
-class RegionSum {
- public:
-  RegionSum(const CadShape& shape, const CadFace& face, const std::vector<SizeRegion>& regions, double least)
-      : surface_(face), domain_(coarse_domain(shape, face)), regions_(regions), least_(least) {
-    const Vector2 low(face.u_min, face.v_min);
-    add(low, Vector2(face.u_max, face.v_max) - low, 0);
-  }
-
-  /// Area and size of pieces.
-  const std::vector<std::pair<double, double>>& pieces() const { return pieces_; }
-
- private:
-  /// The least size of the regions within `distance` of a point; infinite where there is none.
-  double size_near(const Vector3& p, double distance) const {
-    double size = std::numeric_limits<double>::infinity();
-    for (const SizeRegion& region : regions_) {
-      if (region.distance(p) <= distance) size = std::min(size, std::max(region.size, least_));
-    }
-    return size;
-  }
-
-  void add(const Vector2& low, const Vector2& extent, int depth) {
-    constexpr int first = 4, last = 8;  // halvings: least (for the face's border), most (for regions')
-    constexpr double bulge = 1.3;       // allowance for curved cells
-    const SurfacePoint at = surface_.evaluate(low + 0.5 * extent);
-    const double reach = 0.5 * bulge * (at.du.norm() * extent.x() + at.dv.norm() * extent.y());
-    if (depth > 2 && !std::isfinite(size_near(at.point, reach))) return;
-    const double size = size_near(at.point, 0);
-    if (depth == last || (depth >= first && is_alike(low, extent, size))) {
-      const double area = at.du.cross(at.dv).norm() * extent.x() * extent.y();
-      if (std::isfinite(size) && domain_.inside(low + 0.5 * extent)) pieces_.emplace_back(area, size);
-      return;
-    }
-    for (int k = 0; k < 4; ++k)
-      add(low + 0.5 * extent.cwiseProduct(Vector2(k & 1, k >> 1)), 0.5 * extent, depth + 1);
-  }
-
-  /// Whether all corners of a cell have the size of its middle. Regions are convex.
-  bool is_alike(const Vector2& low, const Vector2& extent, double size) const {
-    for (int k = 0; k < 4; ++k) {
-      if (size_near(surface_.point(low + extent.cwiseProduct(Vector2(k & 1, k >> 1))), 0) != size)
-        return false;
-    }
-    return true;
-  }
-
-  FaceSurface surface_;
-  TrimmedDomain domain_;
-  const std::vector<SizeRegion>& regions_;
-  double least_;
-  std::vector<std::pair<double, double>> pieces_;
-};
-
 /// Blocks of the sizing field per voxel-sized square of a surface. The field around a surface is some six
 /// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
@@ -122,37 +62,14 @@ double blocks_on(double area, double size, const SizingOptions& options, const S
   return blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
 }
 
-/// Whether, by the faces' bounding boxes, the blocks around faces with their own sizes may exceed the budget.
-bool may_pass_blocks(const CadShape& shape, const SizingOptions& options) {
-  double squares = 0;
-  for (const auto& [face, size] : options.face_sizes)
-    squares += most_on(shape.faces[FaceId::from_number(face)], size);
-  return squares * blocks_a_square > options.budget.blocks;
-}
-
-/// Throws Error (usage) if regions request more elements or blocks on the used faces than allowed.
-void hold_regions(const CadShape& shape, const SizingOptions& options, const SizeLimits& limits,
-                  const FaceFlags& used, double free, const ExecutionContext& context) {
-  const double most = std::min(options.budget.elements, options.budget.blocks / blocks_a_square);
-  std::vector<SizeRegion> regions;
-  for (const SizeRegion& region : options.regions) {
-    const double squares = 2 * std::pow(shape.diagonal() / std::max(region.size, limits.least), 2) *
-                           static_cast<double>(shape.faces.size());
-    if (region.size < limits.largest && squares > most) regions.push_back(region);
-  }
-  if (regions.empty()) return;
-  double elements = 0, blocks = 0;
-  for (const FaceId face : shape.faces.ids()) {
-    context.check();
-    if (!used[face]) continue;
-    const RegionSum sum(shape, shape.faces[face], regions, limits.least);
-    for (const auto& [area, size] : sum.pieces()) {
-      elements += area / (size * size);
-      blocks += blocks_on(area, size, options, limits);
-    }
-  }
-  hold_elements(elements, options.budget, free);
-  if (blocks > options.budget.blocks) throw too_many_blocks(blocks);
+/// The size that is requested at a sample of a face by name, by region and by curvature.
+double size_at(const FaceSample& sample, FaceId face, const SizingOptions& options,
+               const SizeLimits& limits) {
+  double size = std::min({limits.largest, value_or(options.face_sizes, face.number(), limits.largest),
+                          size_of_curvature(options, limits, sample.curvature)});
+  for (const SizeRegion& region : options.regions)
+    if (region.distance(sample.point) <= 0) size = std::min(size, std::max(region.size, limits.least));
+  return size;
 }
 
 }  // namespace
@@ -193,18 +110,13 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
                              ExecutionContext& context)
     : budget_(options.budget), free_(budget_.bytes_an_element > 0 ? free_memory() : 0) {
   const SizeLimits limits = size_limits(model, options);
-  hold_regions(model.shape(), options, limits, used, free_, context);
-  const double limit = budget_.bytes_an_element > 0
-                           ? std::min(budget_.elements, free_ / budget_.bytes_an_element)
-                           : budget_.elements;
-  if (!(most_elements(model.shape(), used, limits.least, limit, context) > limit) &&
-      !may_pass_blocks(model.shape(), options))
-    return;
+  double limit = std::min(budget_.elements, budget_.blocks / blocks_a_square);
+  if (budget_.bytes_an_element > 0) limit = std::min(limit, free_ / budget_.bytes_an_element);
+  if (!(most_elements(model.shape(), used, limits.least, limit, context) > limit)) return;
   samples_ = sample_faces(model.shape(), used, context);
   double blocks = 0;
   const double count = count_elements(samples_, [&](FaceId face, const FaceSample& sample) {
-    const double size = std::min({limits.largest, value_or(options.face_sizes, face.number(), limits.largest),
-                                  size_of_curvature(options, limits, sample.curvature)});
+    const double size = size_at(sample, face, options, limits);
     if (size < limits.largest) blocks += blocks_on(sample.area, size, options, limits);
     return size;
   });
