@@ -529,20 +529,19 @@ std::function<double(int, const Vector3&)> thickness_source(const std::vector<So
   struct Face {
     Wall wall;
     Coverage coverage;
-    bool varies = false;
   };
   const TopTools_IndexedMapOfShape numbers = map_of(result.model.shape().shape, TopAbs_FACE);
   const auto faces = std::make_shared<std::vector<Face>>(result.faces.size());  // by number minus 1
   for (const SolidMiddle& middle : middles) {
     for (const JoinedFace& joined : middle.faces) {
       const int index = numbers.FindIndex(joined.face) - 1;
-      (*faces)[index] = {middle.walls[joined.wall], joined.coverage, varies(result.faces[index])};
+      Face& face = (*faces)[index] = {middle.walls[joined.wall], joined.coverage};
+      if (!varies(result.faces[index])) face.coverage.thickest = face.coverage.thinnest;
     }
   }
   return [skins = std::move(skins), faces](int face, const Vector3& point) {
-    const Face& own = faces->at(face - 1);
-    if (!own.varies) return own.coverage.mean;
-    return thickness_at(own.coverage, own.wall, gp_Pnt(point.x(), point.y(), point.z()));
+    const auto& [wall, coverage] = faces->at(face - 1);
+    return thickness_at(coverage, wall, gp_Pnt(point.x(), point.y(), point.z()));
   };
 }
 
