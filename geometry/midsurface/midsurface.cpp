@@ -123,11 +123,10 @@ double volume_of(const TopoDS_Shape& solid) {
   const double error = BRepGProp::VolumePropertiesGK(solid, properties, tolerance);
   if (error >= 0 && error < 2 * tolerance) return std::abs(properties.Mass());
   double deflection = 1e-3 * std::sqrt(box_of(solid).SquareExtent());
-  double volume = volume_of_triangles(solid, deflection);
-  for (int i = 0; i < 4; ++i) {
-    const double coarse = volume;
-    volume = volume_of_triangles(solid, deflection *= 0.25);
-    if (std::abs(volume - coarse) < tolerance * volume) break;
+  double volume = 0, coarse = HUGE_VAL;
+  for (int i = 0; i < 5 && std::abs(volume - coarse) >= tolerance * volume; ++i, deflection *= 0.25) {
+    coarse = volume;
+    volume = volume_of_triangles(solid, deflection);
   }
   return volume;
 }

@@ -244,11 +244,12 @@ std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
   return result;
 }
 
-std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
+std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
+  const double far = std::min(reach, size_);
   Hit best;
-  for (const std::size_t face : boxes_.met(line, 1e-6 * size_, size_)) {
-    for (const SkinFace::LineHit& hit : faces_[face].hits(line, 0, size_)) {
+  for (const std::size_t face : boxes_.met(line, 1e-6 * size_, far)) {
+    for (const SkinFace::LineHit& hit : faces_[face].hits(line, 0, far)) {
       if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
       best = {static_cast<int>(face), hit.uv, faces_[face].point(hit.uv), hit.along};
     }
@@ -270,13 +271,8 @@ bool Skin::in_material(const gp_Pnt& point) const {
 }
 
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
-  const gp_Lin line(from, direction);
-  for (const std::size_t face : boxes_.met(line, -reach, reach)) {
-    for (const SkinFace::LineHit& hit : faces_[face].hits(line, -reach, reach)) {
-      if (std::abs(hit.along) < reach) return true;
-    }
-  }
-  return false;
+  const auto hit = first_hit(from.Translated(-reach * gp_Vec(direction)), direction, 2 * reach);
+  return hit && hit->distance < 2 * reach;
 }
 
 }  // namespace quadrille

@@ -11,6 +11,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
 #include <array>
+#include <cmath>
 #include <gp_Dir.hxx>
 #include <gp_Lin.hxx>
 #include <gp_Pnt.hxx>
@@ -124,8 +125,8 @@ class Skin {
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
 
-  /// The first face that a ray meets.
-  std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
+  /// The first face that a ray meets, of those about within `reach`.
+  std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction, double reach = HUGE_VAL) const;
   /// Whether the point lies in the material, by rays; of a point on the skin it is not known.
   bool in_material(const gp_Pnt& point) const;
   /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.

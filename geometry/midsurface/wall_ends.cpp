@@ -9,6 +9,7 @@
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <GeomAPI_Interpolate.hxx>
+#include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <GeomFill.hxx>
 #include <Geom_Circle.hxx>
@@ -16,7 +17,6 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,22 +133,15 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   return interpolated(edge, depth);
 }
 
-/// The circle of which a curve is an arc.
-std::optional<gp_Circ> circle_of(const Handle(Geom_Curve) & curve) {
-  const auto arc = Handle(Geom_TrimmedCurve)::DownCast(curve);
-  const auto circle = arc.IsNull() ? Handle(Geom_Circle)() : Handle(Geom_Circle)::DownCast(arc->BasisCurve());
-  return circle.IsNull() ? std::nullopt : std::optional(circle->Circ());
-}
-
 /// The face between two curves. Between arcs around one axis it is a cone, a cylinder or a plane, which
 /// OpenCASCADE intersects much faster than the surface that it makes of two curves itself.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const auto first = circle_of(a), second = circle_of(b);
-  const double near = first ? 1e-7 * first->Radius() : 0;
-  if (first && second && gp_Lin(first->Axis()).Distance(second->Location()) < near) {
+  const GeomAdaptor_Curve first(a), second(b);
+  if (first.GetType() == GeomAbs_Circle && second.GetType() == GeomAbs_Circle &&
+      gp_Lin(first.Circle().Axis()).Distance(second.Circle().Location()) < 1e-7 * first.Circle().Radius()) {
     const double low = a->FirstParameter();
     const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(a->Value(low), b->Value(b->FirstParameter()));
-    return TopoDS::Face(BRepPrimAPI_MakeRevol(side, first->Axis(), a->LastParameter() - low).Shape());
+    return TopoDS::Face(BRepPrimAPI_MakeRevol(side, first.Circle().Axis(), a->LastParameter() - low).Shape());
   }
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
@@ -520,17 +513,14 @@ void add_rim_ends(const std::vector<Wall>& walls, int wall, const std::vector<Fa
     if (going_on.count(&edge) == 0) continue;
     for (const double at : {edge.first(), edge.last()}) {
       const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
-      const auto own = std::find_if(around.begin(), around.end(),
-                                    [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
-      const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
-        return end.edge != &edge && going_on.count(end.edge) == 0;
-      });
-      if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
+      if (around.size() != 2) continue;
+      const EdgeEnd &own = around[around[0].edge == &edge ? 0 : 1], &rim = around[&own == &around[0] ? 1 : 0];
+      if (own.edge != &edge || going_on.count(rim.edge) != 0) continue;
       const gp_Pnt center = edge.inside(at, 0.5 * t);
-      const auto [away, length] = onward(skin, *own, *rim, t);
+      const auto [away, length] = onward(skin, own, rim, t);
       TopoDS_Face across;
-      if (continues(skin, center, away, length, 0.05 * t * own->outward_along))
-        across = rim_fence(all, *own, away, length, t);
+      if (continues(skin, center, away, length, 0.05 * t * own.outward_along))
+        across = rim_fence(all, own, away, length, t);
       else if (runs_under_an_end(walls, wall, edge))
         across = face_between(moved(edge, 0.3 * t, 0.1 * t), moved(edge, 0.7 * t, 0.1 * t));
       if (!across.IsNull() && !is_near(center, 0.01 * t, centers))
