@@ -26,27 +26,19 @@ namespace quadrille {
 
 namespace {
 
-/// Whether a face's surface counts at a point: the point may lie on the other side of the wall and, below the
-/// skin of the plate on which the wall stands, past the end of the face.
-bool is_near(int face, const Wall& wall, const gp_Pnt& point) {
-  return wall.face(face).box().Distance(Bnd_Box(point, point)) <= 1.5 * wall.thickness;
-}
+/// How far from the box of a face, over the thickness, its surface counts at a point: that may lie on the
+/// other side of the wall and, below the skin of the plate on which the wall stands, past the end of the
+/// face.
+constexpr double reach = 1.5;
 
-/// The distance of a point from the nearest surface of each side of a wall; the solid's size if none is
-/// near.
-std::array<double, 2> distances_to_sides(const Wall& wall, const gp_Pnt& point) {
-  std::array<double, 2> result{wall.skin->size(), wall.skin->size()};
-  for (int side = 0; side < 2; ++side) {
-    for (const int face : wall.sides[side])
-      if (is_near(face, wall, point)) result[side] = std::min(result[side], wall.face(face).distance(point));
-  }
-  return result;
+bool is_near(int face, const Wall& wall, const gp_Pnt& point) {
+  return wall.face(face).box().Distance(Bnd_Box(point, point)) <= reach * wall.thickness;
 }
 
 /// Whether the point lies between the surfaces of a wall's sides, with a face of at least one side above or
 /// below it. Where another wall stands on this one, the other side is interrupted.
 bool between_sides(const Wall& wall, const gp_Pnt& point) {
-  const auto [first, second] = distances_to_sides(wall, point);
+  const auto [first, second] = distances_to_sides(wall, point, reach);
   if (first + second >= 1.05 * wall.thickness) return false;
   const std::vector<int> sides = both_sides(wall);
   return std::any_of(sides.begin(), sides.end(),
@@ -61,7 +53,7 @@ std::optional<std::set<int>> halfway_in_others(const std::vector<Wall>& walls, i
     const Wall& other = walls[wall];
     if (wall == own || (!position_in(other, point) && !between_sides(other, point))) continue;
     if (!result) result.emplace();
-    const auto [first, second] = distances_to_sides(other, point);
+    const auto [first, second] = distances_to_sides(other, point, reach);
     if (std::abs(first - second) < 0.02 * (first + second)) result->insert(wall);
   }
   return result;
@@ -133,7 +125,7 @@ bool is_steep(const Wall& wall, const Fan& fan) {
 bool runs_across(const std::vector<Wall>& walls, const Fan& fan, int own) {
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
     if (wall == own) continue;
-    const auto [first, second] = distances_to_sides(walls[wall], fan.point);
+    const auto [first, second] = distances_to_sides(walls[wall], fan.point, reach);
     if (first + second < 1.05 * walls[wall].thickness && is_steep(walls[wall], fan)) return true;
   }
   return false;
@@ -147,7 +139,7 @@ void list_unpaired(const Skin& skin, const std::vector<Wall>& walls, const std::
   for (const int face : accounted) numbers.insert(skin.faces()[face].number());
   for (const SkinFace& face : skin.faces()) {
     // Bevels, and strips that are left where solids were joined, belong to no wall.
-    const bool narrow = width_of(face.face()) < 0.5 * thinnest;
+    const bool narrow = face.width() < 0.5 * thinnest;
     if (numbers.count(face.number()) == 0 && !narrow && !across_a_wall(walls, face))
       result.unpaired.push_back(face.number());
   }

@@ -192,19 +192,16 @@ double stiffening(const FilletsByFace& fillets, const std::vector<Wall>& walls,
 /// which it is slim: a beam's second moments of area times its length. \param of the solid, or a shell.
 std::array<double, 2> second_moments(const GProp_GProps& solid, const GProp_GProps& of) {
   const GProp_PrincipalProps axes = solid.PrincipalProperties();
-  std::array<std::pair<double, double>, 3> result;  // of the solid and of the other one
-  const std::array<gp_Vec, 3> along{axes.FirstAxisOfInertia(), axes.SecondAxisOfInertia(),
-                                    axes.ThirdAxisOfInertia()};
-  const auto about = [](const GProp_GProps& body, const gp_XYZ& axis, const gp_Pnt& center) {
-    const gp_Mat mat = body.MatrixOfInertia();
-    const double off = (body.CentreOfMass().XYZ() - center.XYZ()).Dot(axis);
-    return 0.5 * (mat(1, 1) + mat(2, 2) + mat(3, 3)) - axis.Dot(axis.Multiplied(mat)) +
-           body.Mass() * off * off;
+  const std::array<gp_Vec, 3> axis{axes.FirstAxisOfInertia(), axes.SecondAxisOfInertia(),
+                                   axes.ThirdAxisOfInertia()};
+  const auto along = [&](const GProp_GProps& body, int which) {
+    double result = 0;
+    for (int i = 0; i < 3; ++i)
+      result += (i == which ? -0.5 : 0.5) * body.MomentOfInertia({solid.CentreOfMass(), axis[i]});
+    return result;
   };
-  for (int i = 0; i < 3; ++i) {
-    result[i] = {about(solid, along[i].XYZ(), solid.CentreOfMass()),
-                 about(of, along[i].XYZ(), solid.CentreOfMass())};
-  }
+  std::array<std::pair<double, double>, 3> result;  // of the solid and of the other one
+  for (int i = 0; i < 3; ++i) result[i] = {along(solid, i), along(of, i)};
   std::sort(result.begin(), result.end());
   return {result[0].second, result[1].second};
 }

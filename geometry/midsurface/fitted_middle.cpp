@@ -148,54 +148,6 @@ class GridLine {
   double before_ = HUGE_VAL;  ///< error of the coarser line
 };
 
-/// How much the direction in which middle points are searched is tilted from the normal of the first side.
-/// Where that side and the face beside it meet at an angle, the middles of both must end at the same points,
-/// on the plane that bisects the angle. From there the tilt fades toward the other end.
-class Tilt {
- public:
-  Tilt(const Skin& skin, const SkinFace& base, const std::array<ParameterRange, 2>& ranges,
-       const std::array<int, 4>& beside)
-      : skin_(skin), base_(base), ranges_(ranges), beside_(beside) {}
-
-  /// The vector to add to the outward unit normal.
-  gp_Vec at(const gp_Pnt2d& uv) {
-    const double y = (uv.Y() - ranges_[1].low) / ranges_[1].length();
-    gp_Vec result = between_ends_of_u(uv.X(), uv.Y());
-    // The tilt for the ends of v, beyond that from the ends of u.
-    const std::array<double, 2> bounds{ranges_[1].low, ranges_[1].high}, weights{1 - y, y};
-    for (int end = 0; end < 2; ++end) {
-      if (beside_[2 + end] >= 0)
-        result += weights[end] * (at_end(2 + end, uv.X()) - between_ends_of_u(uv.X(), bounds[end]));
-    }
-    return result;
-  }
-
- private:
-  gp_Vec between_ends_of_u(double u, double v) {
-    const double x = (u - ranges_[0].low) / ranges_[0].length();
-    return (1 - x) * at_end(0, v) + x * at_end(1, v);
-  }
-
-  /// Half the difference of the normals beside and on this face. \param along the other parameter.
-  gp_Vec at_end(int end, double along) {
-    if (beside_[end] < 0) return {};
-    const auto [entry, is_new] = known_.try_emplace({end, along});
-    if (!is_new) return entry->second;
-    const ParameterRange& range = ranges_[end / 2];
-    const double bound = end % 2 == 0 ? range.low : range.high;
-    const gp_Pnt2d uv = end < 2 ? gp_Pnt2d(bound, along) : gp_Pnt2d(along, bound);
-    const auto own = base_.outward(uv), next = skin_.faces()[beside_[end]].outward_at(base_.point(uv));
-    if (own && next) entry->second = 0.5 * (gp_Vec(*next) - gp_Vec(*own));
-    return entry->second;
-  }
-
-  const Skin& skin_;
-  const SkinFace& base_;
-  std::array<ParameterRange, 2> ranges_;
-  std::array<int, 4> beside_;
-  std::map<std::pair<int, double>, gp_Vec> known_;
-};
-
 /// The first side, and the faces beside it.
 std::vector<int> with_beside(const std::vector<int>& side, const std::array<int, 4>& beside) {
   std::vector<int> result{side.front()};
@@ -207,12 +159,12 @@ class MiddlePoints {
  public:
   MiddlePoints(const Skin& skin, const std::array<std::vector<int>, 2>& sides,
                const std::array<ParameterRange, 2>& ranges, const std::array<int, 4>& beside)
-      : base_(skin.faces()[sides[0].front()]),
+      : skin_(skin),
+        base_(skin.faces()[sides[0].front()]),
         own_(skin, with_beside(sides[0], beside)),
         across_(skin, sides[1]),
-        tilt_(skin, base_, ranges, beside),
         ranges_(ranges),
-        size_(skin.size()) {}
+        beside_(beside) {}
 
   /// The point on the normal at (u, v) of the first side, or on the tilted normal, that is equally far from
   /// the other side.
@@ -231,11 +183,43 @@ class MiddlePoints {
     return base_.outward({uv.X(), uv.Y() + beside * (middle - uv.Y())});
   }
 
-  std::optional<gp_Pnt> find(const gp_Pnt2d& uv) {
+  /// How much the direction in which middle points are searched is tilted from the normal of the first side:
+  /// the vector to add to the outward unit normal. Where that side and the face beside it meet at an angle,
+  /// the middles of both must end at the same points, on the plane that bisects the angle. From there the
+  /// tilt fades toward the other end.
+  gp_Vec tilt(const gp_Pnt2d& uv) const {
+    const double y = (uv.Y() - ranges_[1].low) / ranges_[1].length();
+    gp_Vec result = tilt_between_ends_of_u(uv.X(), uv.Y());
+    // The tilt for the ends of v, beyond that from the ends of u.
+    const std::array<double, 2> bounds{ranges_[1].low, ranges_[1].high}, weights{1 - y, y};
+    for (int end = 0; end < 2; ++end) {
+      if (beside_[2 + end] >= 0)
+        result += weights[end] * (tilt_at_end(2 + end, uv.X()) - tilt_between_ends_of_u(uv.X(), bounds[end]));
+    }
+    return result;
+  }
+
+  gp_Vec tilt_between_ends_of_u(double u, double v) const {
+    const double x = (u - ranges_[0].low) / ranges_[0].length();
+    return (1 - x) * tilt_at_end(0, v) + x * tilt_at_end(1, v);
+  }
+
+  /// Half the difference of the normals beside and on this face. \param along the other parameter.
+  gp_Vec tilt_at_end(int end, double along) const {
+    if (beside_[end] < 0) return {};
+    const ParameterRange& range = ranges_[end / 2];
+    const double bound = end % 2 == 0 ? range.low : range.high;
+    const gp_Pnt2d uv = end < 2 ? gp_Pnt2d(bound, along) : gp_Pnt2d(along, bound);
+    const auto own = base_.outward(uv), next = skin_.faces()[beside_[end]].outward_at(base_.point(uv));
+    return own && next ? 0.5 * (gp_Vec(*next) - gp_Vec(*own)) : gp_Vec();
+  }
+
+  std::optional<gp_Pnt> find(const gp_Pnt2d& uv) const {
     const auto outward = outward_near(uv);
     if (!outward) return std::nullopt;
-    const gp_Vec tilt = tilt_.at(uv);
+    const gp_Vec tilt = this->tilt(uv);
     const bool tilted = tilt.Magnitude() > 1e-4;
+    const double size = skin_.size();
     const gp_Pnt foot = base_.point(uv);
     const gp_Vec inward(gp_Dir(tilted ? tilt + gp_Vec(*outward) : gp_Vec(*outward)).Reversed());
     double depth = 0;
@@ -244,21 +228,21 @@ class MiddlePoints {
       const gp_Vec from_other(across_.nearest(point), point);
       const gp_Vec from_own = tilted ? gp_Vec(own_.nearest(point), point) : depth * inward;
       const double distance = from_other.Magnitude(), own = from_own.Magnitude();
-      if (std::abs(distance - own) < 1e-10 * size_) return point;
-      const double own_slope = own > 1e-9 * size_ ? from_own.Dot(inward) / own : 1;
+      if (std::abs(distance - own) < 1e-10 * size) return point;
+      const double own_slope = own > 1e-9 * size ? from_own.Dot(inward) / own : 1;
       const double slope = (distance > 0 ? from_other.Dot(inward) / distance : 0) - own_slope;
       if (slope > -0.5) return std::nullopt;
       depth -= (distance - own) / slope;
-      if (depth < 0 || depth > size_) return std::nullopt;
+      if (depth < 0 || depth > size) return std::nullopt;
     }
     return std::nullopt;
   }
 
+  const Skin& skin_;
   const SkinFace& base_;
   SideFaces own_, across_;
-  Tilt tilt_;
   std::array<ParameterRange, 2> ranges_;
-  double size_;
+  std::array<int, 4> beside_;
   std::map<std::pair<double, double>, std::optional<gp_Pnt>> known_;
 };
 

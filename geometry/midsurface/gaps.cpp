@@ -3,23 +3,11 @@
 #include "geometry/midsurface/gaps.hpp"
 
 #include <BRepAlgoAPI_Common.hxx>
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeSolid.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
+#include <BRepOffset_MakeSimpleOffset.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
-#include <BRepTools.hxx>
-#include <BRepTools_WireExplorer.hxx>
-#include <Geom2d_Curve.hxx>
-#include <GeomFill.hxx>
-#include <Geom_OffsetSurface.hxx>
-#include <Geom_TrimmedCurve.hxx>
-#include <Precision.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <cmath>
@@ -42,12 +30,6 @@ namespace {
 struct FaceOf {
   int solid = 0, face = 0;
   friend auto operator<=>(const FaceOf&, const FaceOf&) = default;  // NOLINT(modernize-use-nullptr)
-};
-
-/// A solid swept from a face or moved as a whole, and for its faces the model's faces that they extend.
-struct DrawnFace {
-  TopoDS_Shape solid;
-  std::vector<std::pair<TopoDS_Shape, int>> numbers;
 };
 
 /// Measurements of another solid's face across a gap.
@@ -153,99 +135,39 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContex
   return result;
 }
 
-/// A face offset along its normals: the same parametric curves on the offset surface.
-class OffsetFace {
- public:
-  OffsetFace(const TopoDS_Face& face, double distance) : face_(face) {
-    const double along = face.Orientation() == TopAbs_REVERSED ? -distance : distance;
-    const Handle(Geom_OffsetSurface) offset = new Geom_OffsetSurface(BRep_Tool::Surface(face), along);
-    surface_ = offset->Surface();
-    if (surface_.IsNull()) surface_ = offset;
+/// Adds the solid between two distances along a face's normals. \param numbers by edge, for the sides; other
+/// sides and the two ends get `own`. \return false if the face has a pole or OpenCASCADE fails.
+bool add_thick_face(const TopoDS_Face& face, double from, double to,
+                    const TopTools_DataMapOfShapeInteger& numbers, int own, NumberedSolids& result) {
+  for (const TopoDS_Shape& edge : list_of(face, TopAbs_EDGE))
+    if (BRep_Tool::Degenerated(TopoDS::Edge(edge))) return false;
+  BRepOffset_MakeSimpleOffset start(face, from), whole;
+  start.Perform();
+  if (!start.IsDone()) return false;
+  whole.Initialize(start.GetResultShape(), to - from);
+  whole.SetBuildSolidFlag(Standard_True);
+  whole.Perform();
+  if (!whole.IsDone() || whole.GetResultShape().ShapeType() != TopAbs_SOLID) return false;
+  TopoDS_Solid solid = TopoDS::Solid(whole.GetResultShape());
+  if (!BRepLib::OrientClosedSolid(solid)) return false;
+  result.solids.push_back(solid);
+  for (const TopoDS_Shape& side : list_of(solid, TopAbs_FACE)) {
+    const TopTools_IndexedMapOfShape edges = map_of(side, TopAbs_EDGE);
+    int number = own;
+    for (const TopoDS_Edge& edge : edges_of(face)) {
+      const bool at_side = numbers.IsBound(edge) && !side.IsSame(start.GetResultShape());
+      if (at_side && edges.Contains(start.Generated(edge))) number = numbers.Find(edge);
+    }
+    result.numbers.Bind(side, number);
   }
-
-  TopoDS_Edge edge(const TopoDS_Edge& edge) const {
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face_, first, last);
-    TopoDS_Edge result = BRepBuilderAPI_MakeEdge(curve, surface_, first, last).Edge();
-    BRepLib::BuildCurve3d(result);
-    result.Orientation(edge.Orientation());
-    return result;
-  }
-
-  TopoDS_Face face() const {
-    const TopoDS_Wire outer = BRepTools::OuterWire(face_);
-    const auto moved = [&](const TopoDS_Wire& old) {
-      BRepBuilderAPI_MakeWire wire;
-      for (BRepTools_WireExplorer it(old, face_); it.More(); it.Next()) wire.Add(edge(it.Current()));
-      return wire.Wire();
-    };
-    BRepBuilderAPI_MakeFace result(surface_, moved(outer));
-    for (TopExp_Explorer it(face_, TopAbs_WIRE); it.More(); it.Next())
-      if (!it.Current().IsSame(outer)) result.Add(moved(TopoDS::Wire(it.Current())));
-    return result.Face();
-  }
-
- private:
-  TopoDS_Face face_;
-  Handle(Geom_Surface) surface_;
-};
-
-/// The ruled face between two edges with the same parameters; on a plane if possible.
-TopoDS_Face ruled_face(const TopoDS_Edge& a, const TopoDS_Edge& b) {
-  std::array<Handle(Geom_Curve), 2> curves;
-  std::array<gp_Pnt, 4> ends;
-  for (int side = 0; side < 2; ++side) {
-    double first = 0, last = 0;
-    const Handle(Geom_Curve) curve = BRep_Tool::Curve(side == 0 ? a : b, first, last);
-    curves[side] = new Geom_TrimmedCurve(curve, first, last);
-    ends[2 * side] = curve->Value(first);
-    ends[2 * side + 1] = curve->Value(last);
-  }
-  BRepBuilderAPI_MakeWire border(a);
-  border.Add(BRepBuilderAPI_MakeEdge(ends[0], ends[2]));
-  border.Add(BRepBuilderAPI_MakeEdge(ends[1], ends[3]));
-  border.Add(b);
-  if (border.IsDone()) {
-    BRepBuilderAPI_MakeFace flat(border.Wire(), Standard_True);
-    if (flat.IsDone()) return flat;
-  }
-  return BRepBuilderAPI_MakeFace(GeomFill::Surface(curves[0], curves[1]), Precision::Confusion());
-}
-
-/// The solid between two distances along a face's normals. \param numbers by edge, for the sides; other sides
-/// and the two ends get `own`. Null if the face has a pole or its parts cannot be sewn to a closed solid.
-DrawnFace thick_face(const TopoDS_Face& face, double from, double to,
-                     const TopTools_DataMapOfShapeInteger& numbers, int own,
-                     const ExecutionContext& context) {
-  const OffsetFace start(face, from), end(face, to);
-  std::vector<std::pair<TopoDS_Shape, int>> parts{{start.face(), own}, {end.face(), own}};
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
-    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
-    if (BRep_Tool::Degenerated(edge)) return {};
-    parts.emplace_back(ruled_face(start.edge(edge), end.edge(edge)),
-                       numbers.IsBound(edge) ? numbers.Find(edge) : own);
-  }
-  BRepBuilderAPI_Sewing sewing(1e-5 * std::abs(to - from));
-  for (const auto& [part, number] : parts) sewing.Add(part);
-  under_limit(context, [&](const Message_ProgressRange& range) { sewing.Perform(range); });
-  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) return {};
-  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
-  if (!BRepLib::OrientClosedSolid(solid)) return {};
-  DrawnFace result{solid, {}};
-  for (const auto& [part, number] : parts) result.numbers.emplace_back(sewing.Modified(part), number);
-  return result;
+  return true;
 }
 
 /// Looks from the faces of each solid toward the other solids.
 class GapFinder {
  public:
   GapFinder(const std::deque<Skin>& solids, const ExecutionContext& context)
-      : solids_(solids), context_(context) {
-    for (const Skin& skin : solids) {
-      widths_.emplace_back();
-      for (const SkinFace& face : skin.faces()) widths_.back().push_back(width_of(face.face()));
-    }
-  }
+      : solids_(solids), context_(context) {}
 
   const SkinFace& face(const FaceOf& of) const { return solids_[of.solid].faces()[of.face]; }
 
@@ -289,13 +211,13 @@ class GapFinder {
   }
 
   /// The whole solid of a face, moved. This extends a straight part.
-  DrawnFace moved(const FaceOf& of, const gp_Vec& way) const {
+  NumberedSolids moved(const FaceOf& of, const gp_Vec& way) const {
     gp_Trsf move;
     move.SetTranslation(way);
     BRepBuilderAPI_Transform moved(solids_[of.solid].solid(), move, Standard_True);
-    DrawnFace result{moved.Shape(), {}};
+    NumberedSolids result{{moved.Shape()}, {}};
     for (const SkinFace& face : solids_[of.solid].faces())
-      result.numbers.emplace_back(moved.ModifiedShape(face.face()), face.number());
+      result.numbers.Bind(moved.ModifiedShape(face.face()), face.number());
     return result;
   }
 
@@ -305,27 +227,27 @@ class GapFinder {
   bool goes_on(const FaceOf& of) const {
     if (is_flat(face(of))) return true;
     const auto samples = face(of).samples(1);
-    return !samples.empty() && (thickness_at(of, samples.front().uv) < widths_[of.solid][of.face] ||
+    return !samples.empty() && (thickness_at(of, samples.front().uv) < face(of).width() ||
                                 runs_on_along_normals(beside(solids_[of.solid], face(of))));
   }
 
   /// Sweeps a face, starting at a depth inside the material, over a length outward: along a direction, or in
   /// several parts along its normals. Empty if that fails.
-  std::vector<DrawnFace> drawn(const FaceOf& of, const std::optional<gp_Dir>& along, double depth,
-                               double length) const {
+  NumberedSolids drawn(const FaceOf& of, const std::optional<gp_Dir>& along, double depth,
+                       double length) const {
     if (!along) return thickened(of, depth, length);
     gp_Trsf move;
     move.SetTranslation(-depth * gp_Vec(*along));
     BRepBuilderAPI_Transform moved(face(of).face(), move, Standard_True);
     BRepPrimAPI_MakePrism prism(moved.Shape(), length * gp_Vec(*along));
-    DrawnFace result{prism.Shape(), {}};
+    NumberedSolids result{{prism.Shape()}, {}};
     for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
       for (const TopoDS_Shape& side : prism.Generated(moved.ModifiedShape(edge)))
-        result.numbers.emplace_back(side, face({of.solid, beside}).number());
+        result.numbers.Bind(side, face({of.solid, beside}).number());
     }
-    result.numbers.emplace_back(prism.FirstShape(), face(of).number());
-    result.numbers.emplace_back(prism.LastShape(), face(of).number());
-    return {result};
+    for (const TopoDS_Shape& end : {prism.FirstShape(), prism.LastShape()})
+      result.numbers.Bind(end, face(of).number());
+    return result;
   }
 
  private:
@@ -334,13 +256,12 @@ class GapFinder {
     const auto outward = face(of).outward(uv);
     if (!outward) return 0;
     const auto hit = solids_[of.solid].first_hit(face(of).point(uv), outward->Reversed());
-    const double width = widths_[of.solid][of.face];
-    return hit ? std::min(width, hit->distance) : width;
+    return hit ? std::min(face(of).width(), hit->distance) : face(of).width();
   }
 
   /// drawn() along the normals.
-  std::vector<DrawnFace> thickened(const FaceOf& of, double depth, double length) const {
-    std::vector<DrawnFace> result;
+  NumberedSolids thickened(const FaceOf& of, double depth, double length) const {
+    NumberedSolids result;
     for (BRepAlgoAPI_Common& half : halves(face(of), context_)) {
       TopTools_DataMapOfShapeInteger numbers;
       for (const auto& [edge, beside] : solids_[of.solid].neighbors(face(of))) {
@@ -348,9 +269,9 @@ class GapFinder {
           numbers.Bind(part, face({of.solid, beside}).number());
       }
       for (TopExp_Explorer it(half.Shape(), TopAbs_FACE); it.More(); it.Next()) {
-        result.push_back(thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers,
-                                    face(of).number(), context_));
-        if (result.back().solid.IsNull()) return {};
+        if (!add_thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers, face(of).number(),
+                            result))
+          return {};
       }
     }
     return result;
@@ -372,7 +293,7 @@ class GapFinder {
   /// The other solids near a face.
   std::vector<int> solids_near(const FaceOf& from) const {
     Bnd_Box box = face(from).box();
-    box.Enlarge(2 * widths_[from.solid][from.face]);  // no gap is wider, not even at a slant
+    box.Enlarge(2 * face(from).width());  // no gap is wider, not even at a slant
     std::vector<int> result;
     for (int other = 0; other < static_cast<int>(solids_.size()); ++other) {
       const auto& faces = solids_[other].faces();
@@ -408,7 +329,6 @@ class GapFinder {
 
   const std::deque<Skin>& solids_;
   const ExecutionContext& context_;
-  std::vector<std::vector<double>> widths_;  ///< for each solid, the widths of its faces
 };
 
 /// The narrow gaps, one for each pair of faces, seen from the face of which the larger share faces the other.
@@ -425,18 +345,25 @@ std::vector<Gap> find_gaps(const std::deque<Skin>& solids, const GapFinder& find
   return gaps;
 }
 
-/// Adds the common part of two solids.
-void add_common(const DrawnFace& a, const DrawnFace& b, const ExecutionContext& context,
+/// Numbers a face, unless it has a number.
+void number_once(const TopoDS_Shape& face, int as, NumberedSolids& solids) {
+  if (!solids.numbers.IsBound(face)) solids.numbers.Bind(face, as);
+}
+
+/// Adds the common parts of two solids at a time.
+void add_common(const NumberedSolids& first, const NumberedSolids& second, const ExecutionContext& context,
                 NumberedSolids& fillers) {
-  std::optional<BRepAlgoAPI_Common> common;
-  under_limit(context, [&](const Message_ProgressRange& range) { common.emplace(a.solid, b.solid, range); });
-  if (common->HasErrors()) return;  // reported later as parts that are not connected
-  for (TopExp_Explorer it(common->Shape(), TopAbs_SOLID); it.More(); it.Next())
-    fillers.solids.push_back(it.Current());
-  for (const DrawnFace& prism : {a, b}) {
-    for (const auto& [face, number] : prism.numbers) {
-      for (const TopoDS_Shape& part : images(*common, face))
-        if (!fillers.numbers.IsBound(part)) fillers.numbers.Bind(part, number);
+  for (const TopoDS_Shape& b : second.solids) {
+    for (const TopoDS_Shape& a : first.solids) {
+      std::optional<BRepAlgoAPI_Common> common;
+      under_limit(context, [&](const Message_ProgressRange& range) { common.emplace(a, b, range); });
+      if (common->HasErrors()) continue;  // reported later as parts that are not connected
+      for (const TopoDS_Shape& solid : list_of(common->Shape(), TopAbs_SOLID))
+        fillers.solids.push_back(solid);
+      for (const NumberedSolids* drawn : {&first, &second}) {
+        for (TopTools_DataMapOfShapeInteger::Iterator it(drawn->numbers); it.More(); it.Next())
+          for (const TopoDS_Shape& part : images(*common, it.Key())) number_once(part, it.Value(), fillers);
+      }
     }
   }
 }
@@ -453,20 +380,18 @@ NumberedSolids fill_gaps(const std::deque<Skin>& solids, const ExecutionContext&
     context.check();
     const double depth = into * gap.across.thickness, length = gap.across.widest + depth;
     const bool flat = is_flat(finder.face(gap.from));
-    std::vector<DrawnFace> parts;
+    NumberedSolids parts;
     if (flat || !gap.along)
       parts = finder.drawn(gap.from, gap.along, 0, length);
     else if (moved.insert({gap.from.solid, gap.to}).second)  // an end may have several faces
-      parts.push_back(finder.moved(gap.from, length * gp_Vec(*gap.along)));
+      parts = finder.moved(gap.from, length * gp_Vec(*gap.along));
     if (flat && (gap.share > all || !is_flat(finder.face(gap.to)))) {
-      result.solids.push_back(parts.front().solid);
-      for (const auto& [face, number] : parts.front().numbers)
-        if (!result.numbers.IsBound(face)) result.numbers.Bind(face, number);
+      result.solids.push_back(parts.solids.front());
+      for (TopTools_DataMapOfShapeInteger::Iterator it(parts.numbers); it.More(); it.Next())
+        number_once(it.Key(), it.Value(), result);
     } else if (finder.goes_on(gap.to)) {
       const auto back = flat ? std::optional(gap.along->Reversed()) : std::nullopt;
-      for (const DrawnFace& other : finder.drawn(gap.to, back, depth, 2 * length)) {
-        for (const DrawnFace& part : parts) add_common(part, other, context, result);
-      }
+      add_common(parts, finder.drawn(gap.to, back, depth, 2 * length), context, result);
     }
   }
   return result;

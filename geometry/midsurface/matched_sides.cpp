@@ -58,16 +58,19 @@ std::optional<int> end_along(const TopoDS_Face& face, const TopoDS_Edge& edge) {
   return std::nullopt;
 }
 
-struct Chain {
-  std::vector<MatchedSides> walls;
-  std::vector<std::size_t> pairs;  ///< the index of each wall's pair
-};
+using Pair = std::array<int, 2>;
+using Chain = std::vector<MatchedSides>;
 
-using Pairs = std::vector<std::array<int, 2>>;
+/// The index of the wall in a chain that a pair of faces makes; the chain's size if there is none.
+std::size_t index_in(const Chain& chain, const Pair& pair) {
+  const auto known = std::find_if(chain.begin(), chain.end(), [&](const MatchedSides& wall) {
+    return wall.faces == pair || wall.faces == Pair{pair[1], pair[0]};
+  });
+  return static_cast<std::size_t>(known - chain.begin());
+}
 
 /// The ends of the parameters of the first side of one wall at which it continues into another one.
-std::vector<int> ends_between(const Skin& skin, const std::array<int, 2>& from,
-                              const std::array<int, 2>& to) {
+std::vector<int> ends_between(const Skin& skin, const Pair& from, const Pair& to) {
   const auto face = [&](int index) -> const SkinFace& { return skin.faces()[index]; };
   std::vector<int> result;
   for (const TopoDS_Edge& edge : smooth_edges(face(from[0]), face(to[0]))) {
@@ -78,57 +81,44 @@ std::vector<int> ends_between(const Skin& skin, const std::array<int, 2>& from,
   return result;
 }
 
-void add(const Pairs& pairs, std::size_t pair, int first, Chain& chain) {
-  chain.pairs.push_back(pair);
-  chain.walls.push_back({{pairs[pair][first], pairs[pair][1 - first]}, {-1, -1, -1, -1}, {}});
-}
-
-/// Adds the other pair to the chain if a wall of the chain continues into it.
-void go_on(const Skin& skin, const Pairs& pairs, std::size_t at, std::size_t other, Chain& chain) {
-  const auto known = std::find(chain.pairs.begin(), chain.pairs.end(), other);
-  const auto index = static_cast<std::size_t>(known - chain.pairs.begin());
-  for (const int first : {0, 1}) {
-    const std::array<int, 2> faces{pairs[other][first], pairs[other][1 - first]};
-    if (known != chain.pairs.end() && chain.walls[index].faces != faces) continue;
-    const std::vector<int> ends = ends_between(skin, chain.walls[at].faces, faces);
+/// Adds a pair to the chain if the wall at an index of the chain continues into it.
+void go_on(const Skin& skin, std::size_t at, const Pair& pair, Chain& chain) {
+  const std::size_t index = index_in(chain, pair);
+  if (index == at) return;
+  for (const Pair& faces : {pair, Pair{pair[1], pair[0]}}) {
+    if (index < chain.size() && chain[index].faces != faces) continue;
+    const std::vector<int> ends = ends_between(skin, chain[at].faces, faces);
     if (ends.empty()) continue;
-    if (known == chain.pairs.end()) add(pairs, other, first, chain);
-    for (const int end : ends) chain.walls[at].beside[end] = faces[0];
-    chain.walls[at].next.push_back(index);
+    if (index == chain.size()) chain.push_back({.faces = faces, .next = {}});
+    for (const int end : ends) chain[at].beside[end] = faces[0];
+    chain[at].next.push_back(index);
     return;
   }
 }
 
-/// The chain that contains a pair, of those that are not done. \param side of that pair that becomes the
-/// first one.
-Chain chain_from(const Skin& skin, const Pairs& pairs, const std::vector<char>& done, std::size_t start,
-                 int side) {
-  Chain chain;
-  add(pairs, start, side, chain);
-  for (std::size_t at = 0; at < chain.walls.size(); ++at) {
-    for (std::size_t other = 0; other < pairs.size(); ++other) {
-      if (other != chain.pairs[at] && done[other] == 0) go_on(skin, pairs, at, other, chain);
-    }
-  }
+/// The chain that a pair is in. \param start the pair, the face on the first side first.
+Chain chain_from(const Skin& skin, const std::vector<Pair>& pairs, const Pair& start) {
+  Chain chain{{.faces = start, .next = {}}};
+  for (std::size_t at = 0; at < chain.size(); ++at)
+    for (const Pair& pair : pairs) go_on(skin, at, pair, chain);
   return chain;
 }
 
 }  // namespace
 
-std::vector<MatchedSides> matched_sides(const Skin& skin, const std::vector<std::array<int, 2>>& pairs) {
+std::vector<MatchedSides> matched_sides(const Skin& skin, std::vector<std::array<int, 2>> pairs) {
   std::vector<MatchedSides> result;
-  std::vector<char> done(pairs.size(), 0);
-  for (std::size_t start = 0; start < pairs.size(); ++start) {
-    if (done[start] != 0) continue;
-    Chain chain = chain_from(skin, pairs, done, start, 0);
-    if (Chain other = chain_from(skin, pairs, done, start, 1); other.walls.size() > chain.walls.size())
+  while (!pairs.empty()) {
+    const auto [first, second] = pairs.front();
+    Chain chain = chain_from(skin, pairs, {first, second});
+    if (Chain other = chain_from(skin, pairs, {second, first}); other.size() > chain.size())
       chain = std::move(other);
-    if (chain.walls.size() < 2) continue;
-    for (const std::size_t pair : chain.pairs) done[pair] = 1;
-    for (MatchedSides& wall : chain.walls) {
+    std::erase_if(pairs, [&](const Pair& pair) { return index_in(chain, pair) < chain.size(); });
+    if (chain.size() < 2) continue;
+    for (MatchedSides& wall : chain) {
       for (std::size_t& next : wall.next) next += result.size();
     }
-    result.insert(result.end(), chain.walls.begin(), chain.walls.end());
+    result.insert(result.end(), chain.begin(), chain.end());
   }
   return result;
 }

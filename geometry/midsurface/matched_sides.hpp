@@ -24,6 +24,6 @@ struct MatchedSides {
 /// other are hardly to be intersected. On the first side such an edge must be a whole end of the face's
 /// parameters. \param pairs two faces each that face each other and no other face more than that, as indices
 /// into skin.faces(). \return the pairs that are in a chain of two or more. Quadratic in the pairs.
-std::vector<MatchedSides> matched_sides(const Skin& skin, const std::vector<std::array<int, 2>>& pairs);
+std::vector<MatchedSides> matched_sides(const Skin& skin, std::vector<std::array<int, 2>> pairs);
 
 }  // namespace quadrille

@@ -7,6 +7,7 @@
 #include <ElCLib.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
+#include <Geom_ElementarySurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
@@ -14,10 +15,8 @@
 #include <cmath>
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
-#include <gp_Cylinder.hxx>
 #include <gp_Lin.hxx>
 #include <gp_Pln.hxx>
-#include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
 #include <optional>
 
@@ -48,22 +47,43 @@ bool same_cones(const gp_Cone& a, const gp_Cone& b, double size) {
          std::abs(widening(a, a.Axis()) - widening(b, a.Axis())) < same_direction;
 }
 
+/// \param surface a cylinder or a sphere.
+double radius_of(const BRepAdaptor_Surface& surface) {
+  return surface.GetType() == GeomAbs_Cylinder ? surface.Cylinder().Radius() : surface.Sphere().Radius();
+}
+
+/// What leads from the axis of a cylinder to that of another one parallel to it, or from the center of a
+/// sphere to that of another one. Nothing for other pairs.
+std::optional<gp_Vec> way_between_rounds(const BRepAdaptor_Surface& s, const BRepAdaptor_Surface& t) {
+  const bool cylinders = s.GetType() == GeomAbs_Cylinder;
+  if (s.GetType() != t.GetType() || (!cylinders && s.GetType() != GeomAbs_Sphere)) return std::nullopt;
+  const gp_Ax3 first = *frame_of(s), second = *frame_of(t);
+  const gp_Vec way(first.Location(), second.Location()), along(first.Direction());
+  if (!cylinders) return way;
+  if (!first.Axis().IsParallel(second.Axis(), same_direction)) return std::nullopt;
+  return way - way.Dot(along) * along;
+}
+
+/// A cylinder or a sphere of the mean radius of two.
+Handle(Geom_Surface)
+    between_rounds(const BRepAdaptor_Surface& s, const BRepAdaptor_Surface& t, const gp_Ax3& frame) {
+  const double radius = 0.5 * (radius_of(s) + radius_of(t));
+  if (s.GetType() == GeomAbs_Cylinder) return new Geom_CylindricalSurface(frame, radius);
+  return new Geom_SphericalSurface(frame, radius);
+}
+
 bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
   const double near = same_length * size;
+  if (const auto way = way_between_rounds(s, t))
+    return way->Magnitude() < near && std::abs(radius_of(s) - radius_of(t)) < near;
   switch (s.GetType()) {
     case GeomAbs_Plane:
       return s.Plane().Axis().Direction().IsParallel(t.Plane().Axis().Direction(), same_direction) &&
              s.Plane().Distance(t.Plane().Location()) < near;
-    case GeomAbs_Cylinder:
-      return same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size) &&
-             std::abs(s.Cylinder().Radius() - t.Cylinder().Radius()) < near;
     case GeomAbs_Cone:
       return same_cones(s.Cone(), t.Cone(), size) &&
              std::abs(apex_along(s.Cone(), s.Cone().Axis()) - apex_along(t.Cone(), s.Cone().Axis())) < near;
-    case GeomAbs_Sphere:
-      return s.Sphere().Location().Distance(t.Sphere().Location()) < near &&
-             std::abs(s.Sphere().Radius() - t.Sphere().Radius()) < near;
     case GeomAbs_Torus:
       return same_axis(s.Torus().Axis(), t.Torus().Axis(), size) &&
              s.Torus().Location().Distance(t.Torus().Location()) < near &&
@@ -72,12 +92,6 @@ bool same_surfaces(const SkinFace& a, const SkinFace& b, double size) {
     default:
       return BRep_Tool::Surface(a.face()) == BRep_Tool::Surface(b.face());
   }
-}
-
-/// The middle of a face's parameter range.
-gp_Pnt2d middle_of_range(const BRepAdaptor_Surface& surface) {
-  return {0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
-          0.5 * (surface.FirstVParameter() + surface.LastVParameter())};
 }
 
 /// Whether two faces on one surface have their outward normals on the same side.
@@ -90,8 +104,7 @@ bool same_outside(const SkinFace& a, const SkinFace& b) {
 }
 
 Handle(Geom_Surface) between_planes(const SkinFace& a, const SkinFace& b) {
-  const auto n = a.outward(middle_of_range(a.surface()));
-  const auto m = b.outward(middle_of_range(b.surface()));
+  const auto n = a.outward({}), m = b.outward({});  // the same everywhere
   const gp_Pln p = a.surface().Plane(), q = b.surface().Plane();
   // The points that are equally far from both: difference * x = offset.
   const gp_XYZ difference = n->XYZ() - m->XYZ();
@@ -144,38 +157,12 @@ Handle(Geom_Surface) between_tori(const gp_Torus& a, const gp_Torus& b, double s
   return new Geom_ToroidalSurface(a.Position(), a.MajorRadius(), 0.5 * (a.MinorRadius() + b.MinorRadius()));
 }
 
-/// The largest error of the mean circle as the middle of two circles: half the difference of a point's
-/// distances from both. \param apart distance between the centers. \param first, second the radii.
-double off_between_rounds(double apart, double first, double second) {
-  const double radius = 0.5 * (first + second);
-  double off = 0;
-  constexpr int steps = 16;
-  for (int i = 0; i <= steps; ++i) {
-    const double x = radius * std::cos(M_PI * i / steps), y = radius * std::sin(M_PI * i / steps);
-    const double to_first = std::abs(std::hypot(x + 0.5 * apart, y) - first);
-    const double to_second = std::abs(std::hypot(x - 0.5 * apart, y) - second);
-    off = std::max(off, 0.5 * std::abs(to_first - to_second));
-  }
-  return off;
-}
-
 }  // namespace
 
 std::optional<gp_Ax3> frame_of(const BRepAdaptor_Surface& surface) {
-  switch (surface.GetType()) {
-    case GeomAbs_Plane:
-      return surface.Plane().Position();
-    case GeomAbs_Cylinder:
-      return surface.Cylinder().Position();
-    case GeomAbs_Cone:
-      return surface.Cone().Position();
-    case GeomAbs_Sphere:
-      return surface.Sphere().Position();
-    case GeomAbs_Torus:
-      return surface.Torus().Position();
-    default:
-      return std::nullopt;
-  }
+  const auto elementary = Handle(Geom_ElementarySurface)::DownCast(surface.Surface().Surface());
+  if (elementary.IsNull()) return std::nullopt;
+  return elementary->Position().Transformed(surface.Trsf());
 }
 
 std::optional<gp_Ax1> common_axis(const Skin& skin, const std::vector<int>& faces) {
@@ -197,64 +184,29 @@ bool on_one_surface(const SkinFace& a, const SkinFace& b, double size) {
   return a.surface().GetType() == b.surface().GetType() && same_surfaces(a, b, size) && same_outside(a, b);
 }
 
-double distance_from_carrier(const SkinFace& face, const gp_Pnt& point) {
-  const BRepAdaptor_Surface& surface = face.surface();
-  switch (surface.GetType()) {
-    case GeomAbs_Plane:
-      return surface.Plane().Distance(point);
-    case GeomAbs_Cylinder:
-      return gp_Lin(surface.Cylinder().Axis()).Distance(point);
-    case GeomAbs_Cone:
-      return surface.Cone().Apex().Distance(point);
-    default:
-      const auto frame = frame_of(surface);
-      return frame ? frame->Location().Distance(point) : 0;
-  }
-}
-
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
   const auto torus = torus_of(s, size), other = torus_of(t, size);
   if (torus && other) return between_tori(*torus, *other, size);
   if (s.GetType() != t.GetType()) return {};
-  const double near = same_length * size;
-  switch (s.GetType()) {
-    case GeomAbs_Plane:
-      return between_planes(a, b);
-    case GeomAbs_Cylinder:
-      if (!same_axis(s.Cylinder().Axis(), t.Cylinder().Axis(), size)) return {};
-      return new Geom_CylindricalSurface(s.Cylinder().Position(),
-                                         0.5 * (s.Cylinder().Radius() + t.Cylinder().Radius()));
-    case GeomAbs_Cone:
-      return same_cones(s.Cone(), t.Cone(), size) ? between_cones(s.Cone(), t.Cone())
-                                                  : Handle(Geom_Surface)();
-    case GeomAbs_Sphere:
-      if (s.Sphere().Location().Distance(t.Sphere().Location()) > near) return {};
-      return new Geom_SphericalSurface(s.Sphere().Position(),
-                                       0.5 * (s.Sphere().Radius() + t.Sphere().Radius()));
-    default:
-      return {};
-  }
+  if (s.GetType() == GeomAbs_Plane) return between_planes(a, b);
+  if (s.GetType() == GeomAbs_Cone && same_cones(s.Cone(), t.Cone(), size))
+    return between_cones(s.Cone(), t.Cone());
+  const auto way = way_between_rounds(s, t);
+  if (!way || way->Magnitude() > same_length * size) return {};
+  return between_rounds(s, t, *frame_of(s));
 }
 
 NearMiddle near_middle_surface(const SkinFace& a, const SkinFace& b, double tolerance) {
   const BRepAdaptor_Surface &s = a.surface(), &t = b.surface();
-  const bool cylinders = s.GetType() == GeomAbs_Cylinder;
-  if (s.GetType() != t.GetType() || (!cylinders && s.GetType() != GeomAbs_Sphere)) return {};
-  const gp_Ax3 first = *frame_of(s), second = *frame_of(t);
-  const double radius = cylinders ? s.Cylinder().Radius() : s.Sphere().Radius(),
-               other = cylinders ? t.Cylinder().Radius() : t.Sphere().Radius();
-  gp_Vec apart(first.Location(), second.Location());
-  if (cylinders) {
-    if (!first.Axis().IsParallel(second.Axis(), same_direction)) return {};
-    const gp_Vec along(first.Direction());
-    apart -= apart.Dot(along) * along;
-  }
-  const double off = off_between_rounds(apart.Magnitude(), radius, other);
+  const auto way = way_between_rounds(s, t);
+  if (!way) return {};
+  // Half the difference of a point's distances from both is largest half way round from one center to the
+  // other.
+  const double radius = 0.5 * (radius_of(s) + radius_of(t));
+  const double off = std::hypot(0.5 * way->Magnitude(), radius) - radius;
   if (off > tolerance) return {};
-  const gp_Ax3 between = first.Translated(0.5 * apart);
-  if (cylinders) return {new Geom_CylindricalSurface(between, 0.5 * (radius + other)), off};
-  return {new Geom_SphericalSurface(between, 0.5 * (radius + other)), off};
+  return {between_rounds(s, t, frame_of(s)->Translated(0.5 * *way)), off};
 }
 
 }  // namespace quadrille

@@ -16,10 +16,6 @@ namespace quadrille {
 /// with the material on the same side of it. \param size size of the solid; tolerances are relative to it.
 bool on_one_surface(const SkinFace& a, const SkinFace& b, double size);
 
-/// The distance of a point from what places the surface of a face: its plane, axis, apex or center; 0 for
-/// other kinds. It is the same for faces on one surface.
-double distance_from_carrier(const SkinFace& face, const gp_Pnt& point);
-
 /// The surface of the points that are equally far from both faces' surfaces. Exact for two planes, coaxial
 /// cylinders, parallel coaxial cones, concentric spheres, and tori about one circle. Null for other pairs.
 Handle(Geom_Surface) middle_surface(const SkinFace& a, const SkinFace& b, double size);

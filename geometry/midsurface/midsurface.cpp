@@ -123,11 +123,10 @@ double volume_of(const TopoDS_Shape& solid) {
   const double error = BRepGProp::VolumePropertiesGK(solid, properties, tolerance);
   if (error >= 0 && error < 2 * tolerance) return std::abs(properties.Mass());
   double deflection = 1e-3 * std::sqrt(box_of(solid).SquareExtent());
-  double volume = volume_of_triangles(solid, deflection);
-  for (int i = 0; i < 4; ++i) {
-    const double coarse = volume;
-    volume = volume_of_triangles(solid, deflection *= 0.25);
-    if (std::abs(volume - coarse) < tolerance * volume) break;
+  double volume = 0, coarse = HUGE_VAL;
+  for (int i = 0; i < 5 && std::abs(volume - coarse) >= tolerance * volume; ++i, deflection *= 0.25) {
+    coarse = volume;
+    volume = volume_of_triangles(solid, deflection);
   }
   return volume;
 }
@@ -529,20 +528,19 @@ std::function<double(int, const Vector3&)> thickness_source(const std::vector<So
   struct Face {
     Wall wall;
     Coverage coverage;
-    bool varies = false;
   };
   const TopTools_IndexedMapOfShape numbers = map_of(result.model.shape().shape, TopAbs_FACE);
   const auto faces = std::make_shared<std::vector<Face>>(result.faces.size());  // by number minus 1
   for (const SolidMiddle& middle : middles) {
     for (const JoinedFace& joined : middle.faces) {
       const int index = numbers.FindIndex(joined.face) - 1;
-      (*faces)[index] = {middle.walls[joined.wall], joined.coverage, varies(result.faces[index])};
+      Face& face = (*faces)[index] = {middle.walls[joined.wall], joined.coverage};
+      if (!varies(result.faces[index])) face.coverage.thickest = face.coverage.thinnest;
     }
   }
   return [skins = std::move(skins), faces](int face, const Vector3& point) {
-    const Face& own = faces->at(face - 1);
-    if (!own.varies) return own.coverage.mean;
-    return thickness_at(own.coverage, own.wall, gp_Pnt(point.x(), point.y(), point.z()));
+    const auto& [wall, coverage] = faces->at(face - 1);
+    return thickness_at(coverage, wall, gp_Pnt(point.x(), point.y(), point.z()));
   };
 }
 

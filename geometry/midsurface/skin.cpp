@@ -4,13 +4,11 @@
 #include "geometry/base/whole_number.hpp"
 
 #include <BRepMesh_IncrementalMesh.hxx>
-#include <ElSLib.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <gp_Pln.hxx>
 #include <iterator>
 
 #include "geometry/cad/bounding_box.hpp"
@@ -157,14 +155,25 @@ void triangulate(const TopoDS_Shape& shape, double deflection, double angle) {
   BRepMesh_IncrementalMesh(compound_of(faces), deflection, Standard_False, angle, Standard_False);
 }
 
-SkinFace::SkinFace(const TopoDS_Face& face, int number)
+SkinFace::SkinFace(const TopoDS_Face& face, int number, double near)
     : face_(face),
       number_(number),
+      near_(near),
       area_(area_of(face)),
+      width_(width_of(face)),
       box_(box_of(face)),
       adaptor_(std::make_shared<BRepAdaptor_Surface>(face, Standard_False)),
       inverse_(std::make_shared<ClosestPoint>(face)),
-      inside_(std::make_shared<InsideTest>(face)) {}
+      inside_(std::make_shared<InsideTest>(face)) {
+  if (has_many_holes(face)) return;
+  triangles_ = triangles_of(face);
+  std::vector<Bnd_Box> boxes(triangles_.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const gp_Pnt& corner : triangles_[i].points) boxes[i].Add(corner);
+    boxes[i].Enlarge(near);
+  }
+  boxes_ = BoxTree(boxes);
+}
 
 std::optional<gp_Dir> SkinFace::outward(const gp_Pnt2d& uv) const {
   gp_Pnt at;
@@ -191,30 +200,11 @@ std::optional<gp_Pnt> SkinFace::foot(const gp_Pnt& from) const {
   return holds(uv) ? std::optional(point(uv)) : std::nullopt;
 }
 
-void SkinFace::prepare_hits(double near) {
-  near_ = near;
-  has_many_holes_ = has_many_holes(face_);
-  if (has_many_holes_) return;
-  triangles_ = triangles_of(face_);
-  std::vector<Bnd_Box> boxes(triangles_.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    for (const gp_Pnt& corner : triangles_[i].points) boxes[i].Add(corner);
-    boxes[i].Enlarge(near);
-  }
-  boxes_ = BoxTree(boxes);
-}
-
 std::vector<SkinFace::LineHit> SkinFace::hits(const gp_Lin& line, double from, double to) const {
   std::vector<LineHit> result;
-  if (has_many_holes_) {
-    const gp_Pln plane = adaptor_->Plane();
-    const gp_Vec normal(plane.Axis().Direction());
-    const double slope = gp_Vec(line.Direction()).Dot(normal);
-    if (std::abs(slope) < 1e-9) return {};
-    const double along = gp_Vec(line.Location(), plane.Location()).Dot(normal) / slope;
-    double u = 0, v = 0;
-    ElSLib::Parameters(plane, line.Location().Translated(along * gp_Vec(line.Direction())), u, v);
-    if (holds({u, v})) result.push_back({{u, v}, along});
+  if (has_many_holes(face_)) {  // on a plane one step of Newton's is enough, from anywhere
+    const auto hit = polished(line, *adaptor_, near_, {}, 0);
+    if (hit && holds(hit->uv)) result.push_back(*hit);
   }
   for (const std::size_t i : boxes_.met(line, from, to))
     if (const auto hit = hit_at(line, triangles_[i], *adaptor_, near_)) result.push_back(*hit);
@@ -224,22 +214,20 @@ std::vector<SkinFace::LineHit> SkinFace::hits(const gp_Lin& line, double from, d
 Skin::Skin(const TopoDS_Solid& solid, const TopTools_DataMapOfShapeInteger& numbers) : solid_(solid) {
   TopExp::MapShapes(solid, TopAbs_FACE, map_);
   TopExp::MapShapesAndAncestors(solid, TopAbs_EDGE, TopAbs_FACE, around_);
-  faces_.reserve(map_.Extent());
-  for (int i = 1; i <= map_.Extent(); ++i) {
-    faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)));
-  }
   Bnd_Box whole;
   std::vector<Bnd_Box> boxes;
-  for (const SkinFace& face : faces_) whole.Add(boxes.emplace_back(face.box()));
+  for (int i = 1; i <= map_.Extent(); ++i) whole.Add(boxes.emplace_back(box_of(map_(i))));
   boxes_ = BoxTree(boxes);
   size_ = std::sqrt(whole.SquareExtent());
-  for (SkinFace& face : faces_) face.prepare_hits(1e-8 * size_);
+  faces_.reserve(map_.Extent());
+  for (int i = 1; i <= map_.Extent(); ++i)
+    faces_.emplace_back(TopoDS::Face(map_(i)), numbers.Find(map_(i)), 1e-8 * size_);
 }
 
 std::vector<std::pair<TopoDS_Edge, int>> Skin::neighbors(const SkinFace& of) const {
   std::vector<std::pair<TopoDS_Edge, int>> result;
   for (const TopoDS_Edge& edge : edges_of(of.face())) {
-    for (const TopoDS_Shape& face : faces_of(edge))
+    for (const TopoDS_Shape& face : around_.FindFromKey(edge))
       if (!face.IsSame(of.face())) result.emplace_back(edge, index_of(face));
   }
   return result;
@@ -256,11 +244,12 @@ std::vector<int> Skin::faces_at(const gp_Pnt& point, double tolerance) const {
   return result;
 }
 
-std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction) const {
+std::optional<Skin::Hit> Skin::first_hit(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
   const gp_Lin line(from, direction);
+  const double far = std::min(reach, size_);
   Hit best;
-  for (const std::size_t face : boxes_.met(line, 1e-6 * size_, size_)) {
-    for (const SkinFace::LineHit& hit : faces_[face].hits(line, 0, size_)) {
+  for (const std::size_t face : boxes_.met(line, 1e-6 * size_, far)) {
+    for (const SkinFace::LineHit& hit : faces_[face].hits(line, 0, far)) {
       if (hit.along < 1e-6 * size_ || (best.face >= 0 && hit.along >= best.distance)) continue;
       best = {static_cast<int>(face), hit.uv, faces_[face].point(hit.uv), hit.along};
     }
@@ -282,13 +271,8 @@ bool Skin::in_material(const gp_Pnt& point) const {
 }
 
 bool Skin::meets_face(const gp_Pnt& from, const gp_Dir& direction, double reach) const {
-  const gp_Lin line(from, direction);
-  for (const std::size_t face : boxes_.met(line, -reach, reach)) {
-    for (const SkinFace::LineHit& hit : faces_[face].hits(line, -reach, reach)) {
-      if (std::abs(hit.along) < reach) return true;
-    }
-  }
-  return false;
+  const auto hit = first_hit(from.Translated(-reach * gp_Vec(direction)), direction, 2 * reach);
+  return hit && hit->distance < 2 * reach;
 }
 
 }  // namespace quadrille

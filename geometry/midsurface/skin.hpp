@@ -11,6 +11,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
 #include <array>
+#include <cmath>
 #include <gp_Dir.hxx>
 #include <gp_Lin.hxx>
 #include <gp_Pnt.hxx>
@@ -52,12 +53,14 @@ struct SkinTriangle {
 class SkinFace {
  public:
   /// \param face oriented as in the solid. \param number in the model, from 1.
-  SkinFace(const TopoDS_Face& face, int number);
+  /// \param near points closer to a line than this lie on it.
+  SkinFace(const TopoDS_Face& face, int number, double near = 0);
 
   const TopoDS_Face& face() const { return face_; }
   int number() const { return number_; }
   const BRepAdaptor_Surface& surface() const { return *adaptor_; }
   double area() const { return area_; }
+  double width() const { return width_; }  ///< see width_of()
   /// Unit normal out of the material; none where the surface is singular.
   std::optional<gp_Dir> outward(const gp_Pnt2d& uv) const;
   /// Parameters of the closest point of the (untrimmed) surface.
@@ -79,26 +82,22 @@ class SkinFace {
     gp_Pnt2d uv;
     double along = 0;  ///< parameter on the line
   };
-  /// Must be called once before hits(), of a face with triangles unless it has many holes. \param near points
-  /// closer to a line than this lie on it.
-  void prepare_hits(double near);
-  /// Intersections with a line, about between two of its parameters: with the triangles first, then with the
-  /// exact surface; a plane with many holes has no triangles. On tori and B-splines this is about a hundred
-  /// times faster than OpenCASCADE. Time: logarithmic in the triangles.
+  /// Intersections with a line, about between two of its parameters: with the triangles that the face must
+  /// have had from the beginning, then with the exact surface; a plane with many holes needs no triangles. On
+  /// tori and B-splines this is about a hundred times faster than OpenCASCADE. Time: logarithmic in the
+  /// triangles.
   std::vector<LineHit> hits(const gp_Lin& line, double from, double to) const;
 
  private:
   TopoDS_Face face_;
   int number_;
-  double area_ = 0;
+  double near_, area_, width_;
   Bnd_Box box_;
   std::shared_ptr<BRepAdaptor_Surface> adaptor_;
   std::shared_ptr<ClosestPoint> inverse_;
   std::shared_ptr<InsideTest> inside_;
   std::vector<SkinTriangle> triangles_;  ///< empty if the face has many holes
   BoxTree boxes_;                        ///< of the triangles
-  double near_ = 0;                      ///< see prepare_hits()
-  bool has_many_holes_ = false;          ///< lines are then intersected with its plane
 };
 
 /// The faces of one solid.
@@ -120,17 +119,14 @@ class Skin {
   const std::vector<SkinFace>& faces() const { return faces_; }
   /// Index of a face of the solid; -1 if it is none.
   int index_of(const TopoDS_Shape& face) const { return map_.FindIndex(face) - 1; }
-  /// The faces around each edge, and around one of them; the same twice at a seam.
-  const TopTools_IndexedDataMapOfShapeListOfShape& faces_of_edges() const { return around_; }
-  const TopTools_ListOfShape& faces_of(const TopoDS_Shape& edge) const { return around_.FindFromKey(edge); }
   /// The edges of a face, but not its seams, each with the index of the face on its other side.
   std::vector<std::pair<TopoDS_Edge, int>> neighbors(const SkinFace& of) const;
   double size() const { return size_; }  ///< diagonal of the bounding box
   /// Indices of the faces that a point lies on, within a tolerance.
   std::vector<int> faces_at(const gp_Pnt& point, double tolerance) const;
 
-  /// The first face that a ray meets.
-  std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction) const;
+  /// The first face that a ray meets, of those about within `reach`.
+  std::optional<Hit> first_hit(const gp_Pnt& from, const gp_Dir& direction, double reach = HUGE_VAL) const;
   /// Whether the point lies in the material, by rays; of a point on the skin it is not known.
   bool in_material(const gp_Pnt& point) const;
   /// Whether a face lies within the distance `reach` of the point, along the direction or opposite to it.
@@ -139,7 +135,7 @@ class Skin {
  private:
   TopoDS_Solid solid_;
   TopTools_IndexedMapOfShape map_;
-  TopTools_IndexedDataMapOfShapeListOfShape around_;
+  TopTools_IndexedDataMapOfShapeListOfShape around_;  ///< each edge; the same face twice at a seam
   std::vector<SkinFace> faces_;
   double size_ = 0;
   BoxTree boxes_;  ///< of the faces

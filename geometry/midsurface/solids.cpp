@@ -3,11 +3,9 @@
 #include "geometry/midsurface/solids.hpp"
 
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepLib.hxx>
-#include <Precision.hxx>
 #include <TopTools_ListOfShape.hxx>
-#include <optional>
+#include <algorithm>
 #include <vector>
 
 #include "geometry/base/error.hpp"
@@ -65,16 +63,11 @@ std::vector<gp_Pnt> points_inside(const std::deque<Skin>& skins, const Execution
 }
 
 /// Whether the solids contain all points. OpenCASCADE may lose solids where surfaces are nearly tangent.
-bool hold(const NumberedSolids& solids, std::vector<gp_Pnt> points, const ExecutionContext& context) {
-  for (const TopoDS_Shape& solid : solids.solids) {
-    BRepClass3d_SolidClassifier classifier(solid);
-    std::erase_if(points, [&](const gp_Pnt& point) {
-      context.check();
-      classifier.Perform(point, Precision::Confusion());
-      return classifier.State() != TopAbs_OUT;
-    });
-  }
-  return points.empty();
+bool hold(const std::deque<Skin>& skins, const std::vector<gp_Pnt>& points, const ExecutionContext& context) {
+  return std::all_of(points.begin(), points.end(), [&](const gp_Pnt& point) {
+    context.check();
+    return std::any_of(skins.begin(), skins.end(), [&](const Skin& skin) { return skin.in_material(point); });
+  });
 }
 
 NumberedSolids fused(const NumberedSolids& apart, const ExecutionContext& context) {
@@ -107,10 +100,10 @@ std::deque<Skin> skins_of(const TopoDS_Shape& shape, bool join, const ExecutionC
   for (const TopoDS_Shape& filler : fillers.solids) solids.solids.push_back(right_way_out(filler));
   for (TopTools_DataMapOfShapeInteger::Iterator it(fillers.numbers); it.More(); it.Next())
     solids.numbers.Bind(it.Key(), it.Value());
-  const NumberedSolids whole = fused(solids, context);
+  std::deque<Skin> whole = skins_of(fused(solids, context), context);
   if (!hold(whole, points_inside(skins, context), context))
     throw failure("", "the solids cannot be joined to one");
-  return skins_of(whole, context);
+  return whole;
 }
 
 }  // namespace quadrille

@@ -9,6 +9,7 @@
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <GeomAPI_Interpolate.hxx>
+#include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <GeomFill.hxx>
 #include <Geom_Circle.hxx>
@@ -16,7 +17,6 @@
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
-#include <TopTools_ListOfShape.hxx>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,22 +133,15 @@ Handle(Geom_Curve) moved(const FaceEdge& edge, double depth, double longer) {
   return interpolated(edge, depth);
 }
 
-/// The circle of which a curve is an arc.
-std::optional<gp_Circ> circle_of(const Handle(Geom_Curve) & curve) {
-  const auto arc = Handle(Geom_TrimmedCurve)::DownCast(curve);
-  const auto circle = arc.IsNull() ? Handle(Geom_Circle)() : Handle(Geom_Circle)::DownCast(arc->BasisCurve());
-  return circle.IsNull() ? std::nullopt : std::optional(circle->Circ());
-}
-
 /// The face between two curves. Between arcs around one axis it is a cone, a cylinder or a plane, which
 /// OpenCASCADE intersects much faster than the surface that it makes of two curves itself.
 TopoDS_Face face_between(const Handle(Geom_Curve) & a, const Handle(Geom_Curve) & b) {
-  const auto first = circle_of(a), second = circle_of(b);
-  const double near = first ? 1e-7 * first->Radius() : 0;
-  if (first && second && gp_Lin(first->Axis()).Distance(second->Location()) < near) {
+  const GeomAdaptor_Curve first(a), second(b);
+  if (first.GetType() == GeomAbs_Circle && second.GetType() == GeomAbs_Circle &&
+      gp_Lin(first.Circle().Axis()).Distance(second.Circle().Location()) < 1e-7 * first.Circle().Radius()) {
     const double low = a->FirstParameter();
     const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(a->Value(low), b->Value(b->FirstParameter()));
-    return TopoDS::Face(BRepPrimAPI_MakeRevol(side, first->Axis(), a->LastParameter() - low).Shape());
+    return TopoDS::Face(BRepPrimAPI_MakeRevol(side, first.Circle().Axis(), a->LastParameter() - low).Shape());
   }
   return BRepBuilderAPI_MakeFace(GeomFill::Surface(a, b), Precision::Confusion()).Face();
 }
@@ -381,12 +374,9 @@ bool is_near(const gp_Pnt& point, double distance, std::vector<gp_Pnt>& others) 
 /// The edges of a face that lead to another surface. \param surfaces numbers of the faces' surfaces
 std::vector<FaceEdge> borders_of(const SkinFace& face, const Skin& skin, const std::vector<int>& surfaces) {
   std::vector<FaceEdge> result;
-  for (const TopoDS_Edge& edge : edges_of(face.face())) {
-    const TopTools_ListOfShape& around = skin.faces_of(edge);
-    const int first = skin.index_of(around.First()), last = skin.index_of(around.Last());
-    if (surfaces[first] == surfaces[last]) continue;
-    const int other = around.First().IsSame(face.face()) ? last : first;
-    result.emplace_back(face, skin.faces()[other], edge);
+  for (const auto& [edge, other] : skin.neighbors(face)) {
+    if (surfaces[other] != surfaces[skin.index_of(face.face())])
+      result.emplace_back(face, skin.faces()[other], edge);
   }
   return result;
 }
@@ -448,107 +438,96 @@ gp_Dir leaving(const EdgeEnds& ends, const gp_Pnt& point, const gp_Dir& wanted, 
   return best;
 }
 
-/// Finds where a wall runs into others but its rim stops at their skin.
-class RimEnds {
- public:
-  RimEnds(const Skin& skin, const std::vector<Wall>& walls)
-      : skin_(skin), walls_(walls), edges_(edge_ends(skin.solid())) {}
+/// Whether another wall that stands on this one ends along the edge: its middle crosses the edge. Where it
+/// is flush with the rim, what lies past its middle must be cut off at its end.
+bool runs_under_an_end(const std::vector<Wall>& walls, int own, const FaceEdge& edge) {
+  const double t = walls[own].thickness;
+  const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
+    const double at = edge.at(share);
+    const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
+    const auto position = position_in(wall, above);
+    if (!position) return std::nullopt;
+    return position->feet[0].Distance(above) / position->thickness() - 0.5;
+  };
+  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
+    if (wall == own) continue;
+    const auto from = share_of(walls[wall], 0.1), to = share_of(walls[wall], 0.9);
+    if (from && to && *from * *to < 0) return true;
+  }
+  return false;
+}
 
-  /// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
-  /// \param t thickness of the wall. \param edges of the face. \param centers of its fences, old and new.
-  void add(int wall, double t, const std::vector<FaceEdge>& edges, std::vector<gp_Pnt>& centers,
-           std::vector<WallEnd>& ends) {
-    std::set<const FaceEdge*> going_on;  // past them the wall's middle continues inside the material
-    for (const FaceEdge& edge : edges) {
-      const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
-      if (!edge.closed() && skin_.in_material(middle.Translated(0.05 * t * edge.away(edge.middle()))))
-        going_on.insert(&edge);
+/// The direction in which the rim would continue, and the length up to the next skin.
+std::pair<gp_Vec, double> onward(const Skin& skin, const EdgeEnd& end, const EdgeEnd& rim, double t) {
+  const gp_Vec straight = end.edge->away(end.at);
+  const gp_Vec away = rim.outward_along.Dot(straight) > least_steep ? rim.outward_along : straight;
+  // A little within the rim, beside which the ray might run along the skin.
+  const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * (away - end.outward_along));
+  const auto hit = skin.first_hit(start, gp_Dir(away));
+  return {away, hit ? hit->distance + 0.1 * t : 2 * t};
+}
+
+/// Whether the material is wider than the rim anywhere along its continuation. Beside the vertex it need
+/// not be: a fillet or chamfer along a rib ends in the same plane as the rib.
+bool continues(const Skin& skin, const gp_Pnt& center, const gp_Vec& away, double length,
+               const gp_Vec& aside) {
+  for (const double share : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85})
+    if (skin.in_material(center.Translated(share * length * away + aside))) return true;
+  return false;
+}
+
+/// A parallelogram across the wall, from the vertex in the direction in which the rim would continue. It
+/// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
+/// normal would miss that edge, and with it the end of the rim; if the whole wall leans, it would miss
+/// where the rim continues. Half way across a hollow side, as that of a ring around blades, the
+/// tangent would be past the side: it begins before that.
+TopoDS_Face rim_fence(const EdgeEnds& edges, const EdgeEnd& end, const gp_Vec& away, double length,
+                      double t) {
+  const gp_Pnt vertex = end.edge->curve().Value(end.at);
+  const gp_Dir across = leaving(edges, vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
+  const double wide = t / std::max(0.5, -across.Dot(end.edge->outward(end.at)));
+  const gp_Pnt half_way = vertex.Translated(0.5 * t * gp_Vec(across));
+  const SkinFace& beside = end.edge->beside();
+  const double late = gp_Vec(beside.point(beside.closest(half_way)), half_way).Dot(away);
+  const gp_Vec before = 2 * std::max(0.0, late) * away;
+  const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away + before;
+  const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across) - before);
+  BRepBuilderAPI_MakePolygon border(start, start.Translated(aside), start.Translated(aside + onward),
+                                    start.Translated(onward), Standard_True);
+  return BRepBuilderAPI_MakeFace(border.Wire(), Standard_True).Face();
+}
+
+/// Adds the fences at the vertices of one face where an edge past which the wall continues meets its rim.
+/// \param edges of the face. \param all of the solid. \param centers of the wall's fences, old and new.
+void add_rim_ends(const std::vector<Wall>& walls, int wall, const std::vector<FaceEdge>& edges,
+                  const EdgeEnds& all, std::vector<gp_Pnt>& centers, std::vector<WallEnd>& ends) {
+  const Skin& skin = *walls[wall].skin;
+  const double t = walls[wall].thickness;
+  std::set<const FaceEdge*> going_on;  // past them the wall's middle continues inside the material
+  for (const FaceEdge& edge : edges) {
+    const gp_Pnt middle = edge.inside(edge.middle(), 0.5 * t);
+    if (!edge.closed() && skin.in_material(middle.Translated(0.05 * t * edge.away(edge.middle()))))
+      going_on.insert(&edge);
+  }
+  for (const FaceEdge& edge : edges) {
+    if (going_on.count(&edge) == 0) continue;
+    for (const double at : {edge.first(), edge.last()}) {
+      const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
+      if (around.size() != 2) continue;
+      const EdgeEnd &own = around[around[0].edge == &edge ? 0 : 1], &rim = around[&own == &around[0] ? 1 : 0];
+      if (own.edge != &edge || going_on.count(rim.edge) != 0) continue;
+      const gp_Pnt center = edge.inside(at, 0.5 * t);
+      const auto [away, length] = onward(skin, own, rim, t);
+      TopoDS_Face across;
+      if (continues(skin, center, away, length, 0.05 * t * own.outward_along))
+        across = rim_fence(all, own, away, length, t);
+      else if (runs_under_an_end(walls, wall, edge))
+        across = face_between(moved(edge, 0.3 * t, 0.1 * t), moved(edge, 0.7 * t, 0.1 * t));
+      if (!across.IsNull() && !is_near(center, 0.01 * t, centers))
+        ends.push_back({wall, wall, across, false});
     }
-    for (const FaceEdge& edge : edges) {
-      if (going_on.count(&edge) == 0) continue;
-      for (const double at : {edge.first(), edge.last()}) {
-        const std::vector<EdgeEnd> around = ends_at(edge.curve().Value(at), edges, at_one_vertex * t);
-        const auto own = std::find_if(around.begin(), around.end(),
-                                      [&](const EdgeEnd& end) { return end.edge == &edge && end.at == at; });
-        const auto rim = std::find_if(around.begin(), around.end(), [&](const EdgeEnd& end) {
-          return end.edge != &edge && going_on.count(end.edge) == 0;
-        });
-        if (own == around.end() || around.size() != 2 || rim == around.end()) continue;
-        const gp_Pnt center = edge.inside(at, 0.5 * t);
-        const auto [away, length] = onward(*own, *rim, t);
-        TopoDS_Face across;
-        if (continues(center, away, length, 0.05 * t * own->outward_along))
-          across = fence(*own, away, length, t);
-        else if (runs_under_an_end(wall, edge))
-          across = face_between(moved(edge, 0.3 * t, 0.1 * t), moved(edge, 0.7 * t, 0.1 * t));
-        if (!across.IsNull() && !is_near(center, 0.01 * t, centers))
-          ends.push_back({wall, wall, across, false});
-      }
-    }
   }
-
- private:
-  /// Whether another wall that stands on this one ends along the edge: its middle crosses the edge. Where it
-  /// is flush with the rim, what lies past its middle must be cut off at its end.
-  bool runs_under_an_end(int own, const FaceEdge& edge) const {
-    const double t = walls_[own].thickness;
-    const auto share_of = [&](const Wall& wall, double share) -> std::optional<double> {
-      const double at = edge.at(share);
-      const gp_Pnt above = edge.inside(at, -0.5 * t).Translated(close_by * t * edge.away(at));
-      const auto position = position_in(wall, above);
-      if (!position) return std::nullopt;
-      return position->feet[0].Distance(above) / position->thickness() - 0.5;
-    };
-    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
-      if (wall == own) continue;
-      const auto from = share_of(walls_[wall], 0.1), to = share_of(walls_[wall], 0.9);
-      if (from && to && *from * *to < 0) return true;
-    }
-    return false;
-  }
-
-  /// The direction in which the rim would continue, and the length up to the next skin.
-  std::pair<gp_Vec, double> onward(const EdgeEnd& end, const EdgeEnd& rim, double t) const {
-    const gp_Vec straight = end.edge->away(end.at);
-    const gp_Vec away = rim.outward_along.Dot(straight) > least_steep ? rim.outward_along : straight;
-    // A little within the rim, beside which the ray might run along the skin.
-    const gp_Pnt start = end.edge->inside(end.at, 0.5 * t).Translated(0.05 * t * (away - end.outward_along));
-    const auto hit = skin_.first_hit(start, gp_Dir(away));
-    return {away, hit ? hit->distance + 0.1 * t : 2 * t};
-  }
-
-  /// Whether the material is wider than the rim anywhere along its continuation. Beside the vertex it need
-  /// not be: a fillet or chamfer along a rib ends in the same plane as the rib.
-  bool continues(const gp_Pnt& center, const gp_Vec& away, double length, const gp_Vec& aside) const {
-    for (const double share : {0.02, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85})
-      if (skin_.in_material(center.Translated(share * length * away + aside))) return true;
-    return false;
-  }
-
-  /// A parallelogram across the wall, from the vertex in the direction in which the rim would continue. It
-  /// contains the edge that leads from the vertex to the other side. If the side leans, a rectangle along its
-  /// normal would miss that edge, and with it the end of the rim; if the whole wall leans, it would miss
-  /// where the rim continues. Half way across a hollow side, as that of a ring around blades, the
-  /// tangent would be past the side: it begins before that.
-  TopoDS_Face fence(const EdgeEnd& end, const gp_Vec& away, double length, double t) const {
-    const gp_Pnt vertex = end.edge->curve().Value(end.at);
-    const gp_Dir across = leaving(edges_, vertex, end.edge->outward(end.at).Reversed(), at_one_vertex * t);
-    const double wide = t / std::max(0.5, -across.Dot(end.edge->outward(end.at)));
-    const gp_Pnt half_way = vertex.Translated(0.5 * t * gp_Vec(across));
-    const SkinFace& beside = end.edge->beside();
-    const double late = gp_Vec(beside.point(beside.closest(half_way)), half_way).Dot(away);
-    const gp_Vec before = 2 * std::max(0.0, late) * away;
-    const gp_Vec aside = 0.6 * wide * gp_Vec(across), onward = length * away + before;
-    const gp_Pnt start = vertex.Translated(0.2 * wide * gp_Vec(across) - before);
-    BRepBuilderAPI_MakePolygon border(start, start.Translated(aside), start.Translated(aside + onward),
-                                      start.Translated(onward), Standard_True);
-    return BRepBuilderAPI_MakeFace(border.Wire(), Standard_True).Face();
-  }
-
-  const Skin& skin_;
-  const std::vector<Wall>& walls_;
-  EdgeEnds edges_;
-};
+}
 
 /// The shortest vector from a fence to a point.
 std::optional<gp_Vec> way_from(const TopoDS_Face& fence, const gp_Pnt& point) {
@@ -588,7 +567,26 @@ class WallEnds {
  public:
   WallEnds(const Skin& skin, const std::vector<Wall>& walls) : skin_(skin), walls_(walls) {}
 
-  const std::vector<WallEnd>& found() const { return ends_; }
+  /// The ends of all walls. \param surfaces numbers of the faces' surfaces
+  std::vector<WallEnd> find(const std::vector<int>& surfaces, const ExecutionContext& context) {
+    for (int wall = 0; wall < static_cast<int>(walls_.size()); ++wall) {
+      for (int side = 0; side < 2; ++side) {
+        for (const int face : walls_[wall].sides[side]) {
+          for (const FaceEdge& edge : borders_of(skin_.faces()[face], skin_, surfaces)) {
+            context.check();
+            add(wall, side, edge);
+          }
+        }
+      }
+    }
+    add_thinner();
+    for (WallEnd& end : ends_)  // forgets the risers along which fences do not stand everywhere
+      if (end.riser >= 0 && open_[{end.wall, end.riser}] > 0) end.riser = -1;
+    return std::move(ends_);
+  }
+
+ private:
+  static constexpr int between = -1;
 
   /// Looks behind an edge of a wall's side and adds the ends found there.
   void add(int wall, int side, const FaceEdge& edge) {
@@ -602,13 +600,6 @@ class WallEnds {
     }
   }
 
-  /// Forgets the risers along which fences do not stand everywhere.
-  void keep_whole_risers() {
-    for (WallEnd& end : ends_) {
-      if (end.riser >= 0 && open_[{end.wall, end.riser}] > 0) end.riser = -1;
-    }
-  }
-
   /// Adds the ends of the thinner walls at steps where no fence of the thicker wall stands.
   void add_thinner() {
     for (const Thinner& thinner : thinner_) {
@@ -619,9 +610,6 @@ class WallEnds {
         push(make_end(walls_, thinner.wall, thinner.next, part, {}), false, between);
     }
   }
-
- private:
-  static constexpr int between = -1;
 
   /// Adds the ends at an edge behind which the next wall begins. \param beside all walls that begin there.
   /// \return whether the edge is at a step.
@@ -763,33 +751,18 @@ std::map<int, std::vector<FilletBorder>> find_fillet_borders(const Skin& skin,
 
 std::vector<WallEnd> find_wall_ends(const Skin& skin, const std::vector<Wall>& walls,
                                     const std::vector<int>& surfaces, const ExecutionContext& context) {
-  WallEnds ends(skin, walls);
-  for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    for (int side = 0; side < 2; ++side) {
-      for (const int index : walls[wall].sides[side]) {
-        const SkinFace& face = skin.faces()[index];
-        for (const FaceEdge& edge : borders_of(face, skin, surfaces)) {
-          context.check();
-          ends.add(wall, side, edge);
-        }
-      }
-    }
-  }
-  ends.add_thinner();
-  ends.keep_whole_risers();
-  return ends.found();
+  return WallEnds(skin, walls).find(surfaces, context);
 }
 
 std::vector<WallEnd> find_rim_ends(const Skin& skin, const std::vector<Wall>& walls,
                                    const std::vector<int>& surfaces, const ExecutionContext& context) {
-  RimEnds rims(skin, walls);
+  const EdgeEnds edges = edge_ends(skin.solid());
   std::vector<WallEnd> ends;
   for (int wall = 0; wall < static_cast<int>(walls.size()); ++wall) {
-    std::vector<gp_Pnt> centers;
-    for (const int index : both_sides(walls[wall])) {
+    std::vector<gp_Pnt> centers;  // of the wall's fences
+    for (const int face : both_sides(walls[wall])) {
       context.check();
-      const SkinFace& face = skin.faces()[index];
-      rims.add(wall, walls[wall].thickness, borders_of(face, skin, surfaces), centers, ends);
+      add_rim_ends(walls, wall, borders_of(skin.faces()[face], skin, surfaces), edges, centers, ends);
     }
   }
   return ends;

@@ -5,8 +5,6 @@
 #include <GeomAdaptor_Surface.hxx>
 #include <GeomLProp_SLProps.hxx>
 #include <TColStd_Array1OfReal.hxx>
-#include <TopTools_ListOfShape.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,7 +14,6 @@
 #include "geometry/midsurface/fitted_middle.hpp"
 #include "geometry/midsurface/matched_sides.hpp"
 #include "geometry/midsurface/middle_geometry.hpp"
-#include "geometry/midsurface/widths.hpp"
 
 namespace quadrille {
 
@@ -136,11 +133,9 @@ using Touching = std::set<std::pair<int, int>>;
 /// The pairs of surfaces whose faces have an edge in common.
 Touching touching_surfaces(const Skin& skin, const std::vector<int>& surfaces) {
   Touching result;
-  for (const TopTools_ListOfShape& faces : skin.faces_of_edges()) {
-    const int a = surfaces[skin.index_of(faces.First())];
-    const int b = surfaces[skin.index_of(faces.Last())];
-    result.insert({a, b});
-    result.insert({b, a});
+  for (std::size_t face = 0; face < surfaces.size(); ++face) {
+    for (const auto& [edge, other] : skin.neighbors(skin.faces()[face]))
+      result.insert({surfaces[face], surfaces[other]});
   }
   return result;
 }
@@ -331,8 +326,7 @@ void drop_stubs(std::vector<Wall>& walls) {
     areas.push_back(size_of(wall, [](const SkinFace& face) { return face.area(); }));
   const auto is_stub = [&](std::size_t own) {
     const Wall& wall = walls[own];
-    if (size_of(wall, [](const SkinFace& face) { return width_of(face.face()); }) >= wall.thickness)
-      return false;
+    if (size_of(wall, [](const SkinFace& face) { return face.width(); }) >= wall.thickness) return false;
     for (const int face : both_sides(wall)) {
       for (const FaceSample& sample : wall.face(face).samples(samples_a_face)) {
         const auto outward = wall.face(face).outward(sample.uv);
@@ -358,12 +352,12 @@ void drop_stubs(std::vector<Wall>& walls) {
 std::vector<int> surface_numbers(const Skin& skin) {
   const auto& faces = skin.faces();
   const double near = 1e-4 * skin.size();
-  // From here the axes of a grid of holes have different distances.
+  // From here the holes of a grid have different distances.
   const gp_Pnt aside = faces.front().box().CornerMin().Translated(skin.size() * gp_Vec(0.123, 0.457, 0.789));
-  std::multimap<double, int> firsts;  // by distance from `aside`: the first face on each surface
+  std::multimap<double, int> firsts;  // by its distance from `aside`: the first face on each surface
   std::vector<int> result(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const double distance = distance_from_carrier(faces[i], aside);
+    const double distance = faces[i].distance(aside);
     result[i] = static_cast<int>(i);
     for (auto it = firsts.lower_bound(distance - near); it != firsts.upper_bound(distance + near); ++it) {
       if (it->second < result[i] && on_one_surface(faces[i], faces[it->second], skin.size()))
@@ -430,11 +424,17 @@ std::optional<WallPosition> position_in(const Wall& wall, const gp_Pnt& point) {
 
 double thickness_round(const Wall& wall, const gp_Pnt& point) {
   if (const auto position = position_in(wall, point)) return position->thickness();
-  double result = 0;
-  for (const auto& side : wall.sides) {
-    double nearest = HUGE_VAL;
-    for (const int face : side) nearest = std::min(nearest, wall.face(face).distance(point));
-    result += nearest;
+  const auto [first, second] = distances_to_sides(wall, point, HUGE_VAL);
+  return first + second;
+}
+
+std::array<double, 2> distances_to_sides(const Wall& wall, const gp_Pnt& point, double reach) {
+  std::array<double, 2> result{wall.skin->size(), wall.skin->size()};
+  const Bnd_Box at(point, point);
+  for (int side = 0; side < 2; ++side) {
+    for (const int face : wall.sides[side])
+      if (wall.face(face).box().Distance(at) <= reach * wall.thickness)
+        result[side] = std::min(result[side], wall.face(face).distance(point));
   }
   return result;
 }

@@ -55,6 +55,10 @@ std::optional<WallPosition> position_in(const Wall& wall, const gp_Pnt& point);
 /// The distance between the surfaces of the sides near the point, also past the ends of the faces.
 double thickness_round(const Wall& wall, const gp_Pnt& point);
 
+/// The distance of a point from the nearest surface of each side of a wall, of the faces whose boxes are
+/// not farther than `reach` times the thickness; the solid's size if there are none.
+std::array<double, 2> distances_to_sides(const Wall& wall, const gp_Pnt& point, double reach);
+
 /// All faces of a wall.
 std::vector<int> both_sides(const Wall& wall);
 
