@@ -202,22 +202,12 @@ class Sweeps {
       : mesh_(mesh),
         active_(mesh.points.size(), 1),
         next_active_(mesh.points.size(), 0),
-        row_limits_(row_limits(mesh)) {
-    // Mark nodes where the surface turns far from one node to the next, as around a tube of four coarse
-    // quads. There, averages in tangent planes would pull a node further to the side to which it leans.
-    constexpr double least_cosine = 0.1;
-    turns_sharply_.assign(mesh_.points.size(), 0);
-    for (const auto& quad : mesh_.quads)
-      for (int k = 0; k < 4; ++k) {
-        const int a = quad[k], b = quad[(k + 1) & 3];
-        if (mesh_.normals[a].dot(mesh_.normals[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
-      }
-  }
+        row_limits_(row_limits(mesh)) {}
 
   /// Moves each active node once; false when nothing is active any more.
   bool sweep() {
     const bool any = mesh_.visit_free([&](int node) {
-      if (!active_[node] || turns_sharply_[node] || !relax(node)) return false;
+      if (!active_[node] || !relax(node)) return false;
       mesh_.mark_around(node, next_active_);
       return true;
     });
@@ -288,7 +278,7 @@ class Sweeps {
   }
 
   SmoothedMesh& mesh_;
-  std::vector<char> active_, next_active_, turns_sharply_;
+  std::vector<char> active_, next_active_;
   std::vector<RowLimit> row_limits_;  ///< (points)
 };
 
@@ -394,69 +384,6 @@ bool search(SmoothedMesh& m, int node) {
   return settle(m, node, origin + best_x * u + best_y * v, goal, size);
 }
 
-/// Where in [-reach, reach] a concave function is largest.
-template <class Function>
-double golden_section(double reach, Function&& function) {
-  constexpr double golden_ratio = 0.61803398874989485;
-  double low = -reach, high = reach;
-  double a = high - golden_ratio * (high - low), b = low + golden_ratio * (high - low);
-  double at_a = function(a), at_b = function(b);
-  for (int i = 0; i < 32; ++i) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - golden_ratio * (high - low);
-      at_a = function(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + golden_ratio * (high - low);
-      at_b = function(b);
-    }
-  }
-  return 0.5 * (low + high);
-}
-
-/// The corner areas are linear in the node's place, so the least of them is concave. Nested golden-section
-/// searches find where it is largest.
-bool spread_corners(SmoothedMesh& m, int node) {
-  struct Area {
-    double x, y, constant;
-    double at(double px, double py) const { return constant + x * px + y * py; }
-  };
-  const Vector3& origin = m.points[node];
-  const Vector3& normal = m.normals[node];
-  const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
-  std::vector<Area> areas;
-  // The corner at b between a and c, one of which is the node: constant + gradient times the node's move.
-  const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& gradient) {
-    const double scale = std::max((a - b).norm() * (c - b).norm(), std::numeric_limits<double>::min());
-    areas.push_back(
-        {gradient.dot(u) / scale, gradient.dot(v) / scale, (c - b).cross(a - b).dot(normal) / scale});
-  };
-  for (const Side corner : m.corners[node]) {
-    const auto [b, c, d] = m.beside(corner);
-    add(d, origin, b, normal.cross(b - d));
-    add(origin, b, c, normal.cross(c - b));
-    add(c, d, origin, normal.cross(d - c));
-  }
-  const auto least = [&](double x, double y) {
-    double value = std::numeric_limits<double>::max();
-    for (const Area& area : areas) value = std::min(value, area.at(x, y));
-    return value;
-  };
-  const double reach = 1.5 * m.mean_side(node);
-  const auto best_y = [&](double x) { return golden_section(reach, [&](double y) { return least(x, y); }); };
-  const double x = golden_section(reach, [&](double trial) { return least(trial, best_y(trial)); });
-  const SurfacePlace place = m.moved(node, origin + x * u + best_y(x) * v);
-  if (!place.point.allFinite() || !(m.least_at(node, place.point, place.normal) > m.least_round(node)))
-    return false;
-  m.put(node, place);
-  return true;
-}
-
 /// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.
 bool optimize_below(double floor, SmoothedMesh& m, Sweeps& sweeps) {
   return m.visit_free([&](int node) {
@@ -464,13 +391,6 @@ bool optimize_below(double floor, SmoothedMesh& m, Sweeps& sweeps) {
     sweeps.wake_around(node);
     return true;
   });
-}
-
-/// Moves each node of an inverted element to where the least of its corner areas, each divided by the
-/// lengths of its sides, is largest. The search is exact, so that it finds the thin wedges at cusps too.
-/// Returns whether a node moved.
-bool untangle(SmoothedMesh& m) {
-  return m.visit_free([&](int node) { return !(m.least_round(node) > 0) && spread_corners(m, node); });
 }
 
 }  // namespace
@@ -492,7 +412,6 @@ void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Improve
     mesh.measure_all();
   }
   optimize(2, poor_jacobian);
-  for (int i = 0; i < 10 && untangle(mesh); ++i) continue;
 }
 
 }  // namespace quadrille
