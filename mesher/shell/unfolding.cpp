@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_map>
-#include <utility>
 
 #include "geometry/cad/parallel_ids.hpp"
 #include "mesher/mesh/second_order.hpp"
@@ -24,93 +22,6 @@ double jacobian_bound_of(const ShellMesh& mesh, std::size_t quad) {
 bool folds_in(const ShellMesh& mesh, std::size_t quad) {
   return folds(curved_quad(mesh, quad));
 }
-
-/// Moves the midside nodes inside one face along its surface.
-class Sliding {
- public:
-  /// \param first_quad,end_quad the face's elements
-  Sliding(ShellMesh& mesh, const MeshSurface& surface, std::size_t first_quad, std::size_t end_quad,
-          Midsides& midsides, const ExecutionContext& context)
-      : mesh_(mesh), surface_(surface), midsides_(midsides), check_(context, 256) {
-    for (std::size_t quad = first_quad; quad < end_quad; ++quad) {
-      check_();
-      for (const int node : mesh_.midsides[quad]) users_[node].push_back(quad);
-    }
-  }
-
-  void run(const std::vector<std::size_t>& folded) {
-    constexpr int sweeps = 4;
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      for (const std::size_t quad : folded) mend(quad);
-    }
-  }
-
- private:
-  void mend(std::size_t quad) {
-    for (int k = 0; k < 4 && folds_in(mesh_, quad); ++k) {
-      if (mesh_.midsides[quad][k] >= static_cast<int>(midsides_.first_inner)) search(quad, k);
-    }
-  }
-
-  double worst(int node) const {
-    double result = 1;
-    for (const std::size_t quad : users_.at(node)) result = std::min(result, jacobian_bound_of(mesh_, quad));
-    return result;
-  }
-
-  /// Moves the node of side k to the place that is best for the worst of its elements. Tries the bulges of
-  /// the opposite sides of its elements, then a compass search in the tangent plane.
-  void search(std::size_t quad, int k) {
-    check_();
-    const int node = mesh_.midsides[quad][k];
-    const auto [a, b] = ends(quad, k);
-    double best = worst(node);
-    const auto attempt = [&](const Vector3& target) {
-      Vector2& uv = midsides_.parameters[node - midsides_.first_inner];
-      const Vector3 old = mesh_.points[node];
-      Vector2 moved = uv;
-      mesh_.points[node] = surface_.nearest(moved, target);
-      const double now = worst(node);
-      if (now > best) {
-        best = now;
-        uv = moved;
-      } else {
-        mesh_.points[node] = old;
-      }
-    };
-    for (const std::size_t user : users_.at(node)) attempt(0.5 * (a + b) + opposite_bulge(user, node));
-    const Vector3 along = b - a;
-    Vector2 uv = midsides_.parameters[node - midsides_.first_inner];
-    Vector3 normal;
-    surface_.move(uv, mesh_.points[node], normal);
-    const Vector3 across = normal.cross(along);
-    constexpr int halvings = 5;
-    double step = 0.25;
-    for (int i = 0; i < halvings; ++i, step *= 0.5) {
-      for (const Vector3& direction : {across, Vector3(-across), along, Vector3(-along)})
-        attempt(mesh_.points[node] + step * direction);
-    }
-  }
-
-  std::pair<Vector3, Vector3> ends(std::size_t quad, int k) const {
-    return {mesh_.points[mesh_.quads[quad][k]], mesh_.points[mesh_.quads[quad][(k + 1) % 4]]};
-  }
-
-  /// The bulge of the side opposite a midside node: from the middle of the straight side to its midside node.
-  Vector3 opposite_bulge(std::size_t quad, int node) const {
-    const auto& midsides = mesh_.midsides[quad];
-    const int k = static_cast<int>(std::find(midsides.begin(), midsides.end(), node) - midsides.begin());
-    const int opposite = (k + 2) % 4;
-    const auto [a, b] = ends(quad, opposite);
-    return mesh_.points[midsides[opposite]] - 0.5 * (a + b);
-  }
-
-  ShellMesh& mesh_;
-  const MeshSurface& surface_;
-  Midsides& midsides_;
-  SparseCheck check_;
-  std::unordered_map<int, std::vector<std::size_t>> users_;
-};
 
 /// Moves midside nodes of all faces off the geometry, toward the middles of their straight sides.
 class Straightening {
@@ -279,14 +190,7 @@ void list(const Straightening& straightening, const MeshedFaces& meshed, const S
 }  // namespace
 
 std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
-                                Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context) {
-  const QuadsOfFaces at_first = find_folded(mesh, meshed, numbering, context);
-  for (const FaceId face : at_first.ids()) {
-    if (at_first[face].empty()) continue;
-    const auto surface = meshed.surface(face);
-    const auto [first, end] = numbering.quads_of(face);
-    Sliding(mesh, *surface, first, end, midsides, context).run(at_first[face]);
-  }
+                                const Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context) {
   const std::vector<std::size_t> left = joined(find_folded(mesh, meshed, numbering, context));
   if (left.empty()) return {};
   Straightening straightening(mesh, midsides.first_inner, context);

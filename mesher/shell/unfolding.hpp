@@ -10,13 +10,12 @@
 
 namespace quadrille {
 
-/// Moves midside nodes until no element folds (see second_order.hpp). Nodes inside faces first slide along
-/// their surface. If that does not help, nodes move toward the middle of the straight side by as little as
-/// helps: those inside faces first, then those on CAD edges, for all faces that share them. Nodes off the
-/// geometry are listed in `mesh.off_geometry`. With straight sides an element with a positive scaled Jacobian
-/// does not fold, so only inverted quads and quads without area still fold in the end.
+/// Moves midside nodes until no element folds (see second_order.hpp): toward the middle of the straight side,
+/// by as little as helps, those inside faces first, then those on CAD edges, for all faces that share them.
+/// Nodes off the geometry are listed in `mesh.off_geometry`. With straight sides an element with a positive
+/// scaled Jacobian does not fold, so only inverted quads and quads without area still fold in the end.
 /// \return the quads that still fold, ascending. Linear in the mesh and in the number of elements that fold.
 std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
-                                Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context);
+                                const Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context);
 
 }  // namespace quadrille
