@@ -36,7 +36,6 @@
 #include "geometry/base/error.hpp"
 #include "mesher/io/io.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/mesh/renumbering.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
 #include "mesher/pairing/recombine.hpp"
 #include "mesher/quads/triangulated_surface.hpp"
@@ -206,18 +205,8 @@ json run_paper_end(const TriangleMesh& mesh) {
   return entry;
 }
 
-/// Times the stages of the paper's mode: ordering (of scattered meshes), neighbors, greedy coloring, removal
-/// of blanks, boundary.
-json time_coloring(const TriangleMesh& given) {
-  double order = 0;
-  TriangleMesh ordered;
-  const bool scattered = is_scattered(given);
-  if (scattered) {
-    const Stopwatch watch;
-    ordered = order_by_place(given).mesh;
-    order = watch.seconds();
-  }
-  const TriangleMesh& mesh = scattered ? ordered : given;
+/// Times the stages of the paper's mode: neighbors, greedy coloring, removal of blanks, boundary.
+json time_coloring(const TriangleMesh& mesh) {
   double connect = 1e300, greedy = 1e300, blanks = 1e300, boundary = 1e300;
   int greedy_blanks = 0, left = 0, boundary_left = 0;
   best_seconds([&] {
@@ -236,8 +225,7 @@ json time_coloring(const TriangleMesh& given) {
     boundary_left = clear_boundary(coloring, sides, least_boundary_color(coloring, sides), random);
     boundary = std::min(boundary, d.seconds());
   });
-  return {{"order_seconds", order},
-          {"coloring_seconds", greedy + blanks + boundary},
+  return {{"coloring_seconds", greedy + blanks + boundary},
           {"connect_seconds", connect},
           {"greedy_seconds", greedy},
           {"greedy_blanks", greedy_blanks},
@@ -422,10 +410,10 @@ json run_domain(const Domain& domain, int blossom_limit, [[maybe_unused]] int be
   fmt::print(
       "  coloring {:.3f} + blanks {:.3f} + boundary {:.3f} us a triangle ({:.1f} % blank, {} left, {} "
       "boundary edges "
-      "left); neighbors {:.3f}, order {:.3f}\n",
+      "left); neighbors {:.3f}\n",
       per_triangle("greedy_seconds"), per_triangle("blanks_seconds"), per_triangle("boundary_seconds"),
       100 * stages["greedy_blanks"].get<double>() / count, stages["blanks_left"].get<int>(),
-      stages["boundary_left"].get<int>(), per_triangle("connect_seconds"), per_triangle("order_seconds"));
+      stages["boundary_left"].get<int>(), per_triangle("connect_seconds"));
   RecombineOptions options;
   options.method = Method::paper;
   entry["coloring"] = run_quadrille(mesh, options);

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <numeric>
 
 #include "geometry/base/rows.hpp"
@@ -15,9 +13,6 @@
 namespace quadrille {
 
 namespace {
-
-constexpr std::size_t large = 1 << 18;  // smaller ones fit the caches
-constexpr std::size_t sampled_triangles = 1024;
 
 /// Spreads the bits of a number below 2^10: two zero bits follow each.
 std::uint32_t spread(std::uint32_t x) {
@@ -65,21 +60,6 @@ void renumber(std::array<int, n>& element, std::vector<int>& number, std::vector
 }
 
 }  // namespace
-
-bool is_scattered(const TriangleMesh& mesh) {
-  if (mesh.triangles.size() < large) return false;
-  double jump = 0;
-  std::size_t count = 0;
-  const std::size_t every = mesh.triangles.size() / sampled_triangles;
-  for (std::size_t t = 0; t + 1 < mesh.triangles.size(); t += every, ++count) {
-    jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t][1]);
-    jump += std::abs(mesh.triangles[t][0] - mesh.triangles[t + 1][0]);
-  }
-  // In a random order a jump covers a third of all points on average. Triangulations whose points were
-  // inserted in an order other than that of their positions reach a tenth of that: ordering them takes longer
-  // than it saves.
-  return jump / static_cast<double>(count) > static_cast<double>(mesh.points.size()) / 5;
-}
 
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context) {
   SparseCheck check(context);

@@ -15,10 +15,6 @@ struct RenumberedMesh {
   std::vector<int> old_point;  ///< for each point of `mesh`, its index in the original mesh
 };
 
-/// Whether the mesh is large enough for reordering to pay, and its points or triangles are ordered in memory
-/// without regard to their positions in space. Looks at a sample: constant time.
-bool is_scattered(const TriangleMesh& mesh);
-
 /// Orders triangles along a space-filling curve, and points by their first use in a triangle. Points that no
 /// triangle uses are left out. Deterministic. Time: linear. Indices must have been checked.
 RenumberedMesh order_by_place(const TriangleMesh& mesh, const ExecutionContext& context = {});

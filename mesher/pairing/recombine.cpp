@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "mesher/mesh/renumbering.hpp"
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/pairing/augmenting_paths.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
@@ -99,39 +98,13 @@ QuadMesh recombine_as_in_paper(const TriangleMesh& mesh, const RecombineOptions&
   return remove_color(coloring, mesh, [&](int t) -> const std::array<int, 3>& { return mesh.triangles[t]; });
 }
 
-QuadMesh recombine_in_order(const TriangleMesh& mesh, const RecombineOptions& options,
-                            ExecutionContext& context) {
+}  // namespace
+
+QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context) {
   if (options.method == Method::paper) return recombine_as_in_paper(mesh, options, context);
   const CostedColoring coloring = color_by_quality(mesh, context);
   const StageTimer timer(context, Stage::recombine);
   return remove_color(coloring, mesh);
-}
-
-}  // namespace
-
-QuadMesh recombine(const TriangleMesh& mesh, const RecombineOptions& options, ExecutionContext& context) {
-  if (!is_scattered(mesh)) return recombine_in_order(mesh, options, context);
-  check_indices(mesh);
-  try {
-    RenumberedMesh ordered = [&] {
-      const StageTimer timer(context, Stage::color);
-      return order_by_place(mesh, context);
-    }();
-    QuadMesh result = recombine_in_order(ordered.mesh, options, context);
-    ordered.mesh = {};
-    for (auto& quad : result.quads) {
-      for (int& v : quad) v = ordered.old_point[v];
-    }
-    for (auto& triangle : result.triangles) {
-      for (int& v : triangle) v = ordered.old_point[v];
-    }
-    result.points = mesh.points;
-    return result;
-  } catch (const Error& error) {
-    // Report what is wrong with the triangulation in its own numbers.
-    if (error.kind() == Error::Kind::failure) EdgeColoring{mesh};
-    throw;
-  }
 }
 
 }  // namespace quadrille
