@@ -2,6 +2,8 @@
 
 #include "geometry/sizing/edge_spacing.hpp"
 
+#include <Precision.hxx>
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,8 +58,16 @@ std::vector<int> split_count(const CadShape& shape, const std::vector<EdgeId>& p
 
 }  // namespace
 
-std::vector<double> PrescribedEdge::shares_of(int number) const {
-  return shares_by(number, spacing);
+PrescribedEdge PrescribedEdge::make(const CadEdge& edge, int segments, const EdgeSpacing& spacing) {
+  PrescribedEdge made{segments, shares_by(segments, spacing), spacing};
+  const double shortest = made.shortest(edge.length);
+  if (made.shares.empty() || shortest >= Precision::Confusion()) return made;
+  const bool is_both = spacing.bias == 1;
+  const char* name = is_both ? "bias_both" : "bias";
+  throw usage_error(
+      name, fmt::format("`{}` {:g} on Edge{} makes the shortest of its {} segments {:.2g} mm long: "
+                        "use a ratio nearer to 1, or `segments` with a smaller number",
+                        name, is_both ? spacing.bias_both : spacing.bias, edge.number, segments, shortest));
 }
 
 double PrescribedEdge::size_at(double share, double length) const {
@@ -94,7 +104,7 @@ PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& opt
                       segments, number, pieces.size()));
     const std::vector<int> counts = split_count(shape, pieces, segments);
     for (std::size_t i = 0; i < pieces.size(); ++i)
-      result[pieces[i]] = PrescribedEdge{counts[i], shares_by(counts[i], spacing), spacing};
+      result[pieces[i]] = PrescribedEdge::make(shape.edges[pieces[i]], counts[i], spacing);
   }
   return result;
 }

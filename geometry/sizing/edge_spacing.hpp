@@ -20,8 +20,9 @@ struct PrescribedEdge {
 
   /// Whether the number of segments is prescribed, not their spacing alone.
   bool is_fixed() const { return spacing.segments > 0; }
-  /// The positions of the nodes if the edge gets so many segments.
-  std::vector<double> shares_of(int number) const;
+  /// The division of an edge into so many segments. Throws Error (usage) if a bias makes them so short that
+  /// their ends are one point.
+  static PrescribedEdge make(const CadEdge& edge, int segments, const EdgeSpacing& spacing);
   /// The length of the segment at a share of an edge of this length; the mean length if `shares` is empty.
   double size_at(double share, double length) const;
   /// The length of the shortest segment on an edge of this length.
@@ -33,7 +34,8 @@ using PrescribedEdges = IdVector<EdgeId, std::optional<PrescribedEdge>>;
 
 /// What options.spacings prescribes; the pieces of a divided CAD edge have its number of segments
 /// together. \param size the size of edges with a bias but no number, unless options.edge_sizes gives a
-/// smaller one. Throws Error (usage) when an edge in pieces has fewer segments than pieces, or a bias.
+/// smaller one. Throws Error (usage) when an edge in pieces has fewer segments than pieces, or a bias, and as
+/// PrescribedEdge::make() does.
 PrescribedEdges prescribed_edges(const CadShape& shape, const SizingOptions& options, double size);
 
 }  // namespace quadrille

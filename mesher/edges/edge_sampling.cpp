@@ -2,8 +2,6 @@
 
 #include "mesher/edges/edge_sampling.hpp"
 
-#include <Precision.hxx>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -232,29 +230,12 @@ class TargetFinder {
   CountTargets& targets_ = demand_.targets;
 };
 
-/// Throws Error (usage) if a bias makes segments so short that their ends are one point.
-void check_bias(const CadEdge& edge, const PrescribedEdge& divided) {
-  const double shortest = divided.shortest(edge.length);
-  if (divided.shares.empty() || !(shortest < Precision::Confusion())) return;
-  const EdgeSpacing& spacing = divided.spacing;
-  const bool is_both = spacing.bias == 1;
-  const char* name = is_both ? "bias_both" : "bias";
-  throw usage_error(
-      name,
-      fmt::format("`{}` {:g} on Edge{} makes the shortest of its {} segments {:.2g} mm long: "
-                  "use a ratio nearer to 1, or `segments` with a smaller number",
-                  name, is_both ? spacing.bias_both : spacing.bias, edge.number, divided.segments, shortest));
-}
-
 EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan,
                              const IdVector<EdgeId, int>& counts) {
   EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
     if (!plan.prescribes(i) || counts[i] == 0) continue;
-    const PrescribedEdge& wanted = *plan.prescribed[i];
-    const PrescribedEdge divided{counts[i], wanted.shares_of(counts[i]), wanted.spacing};
-    check_bias(shape.edges[i], divided);
-    shares[i] = divided.shares;
+    shares[i] = PrescribedEdge::make(shape.edges[i], counts[i], plan.prescribed[i]->spacing).shares;
   }
   return shares;
 }
