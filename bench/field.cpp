@@ -66,17 +66,16 @@ void print_field(const std::string& path, const SizingOptions& options, int thre
       seconds = i == 0 ? now : std::min(seconds, now);
     }
   });
-  fmt::print("{}, gradation {}, sizes {:.3g} to {:.3g} mm\n{:>6}{:>12}{:>10}{:>10}{:>10}\n",
+  fmt::print("{}, gradation {}, sizes {:.3g} to {:.3g} mm\n{:>6}{:>12}{:>10}{:>10}\n",
              std::filesystem::path(path).filename().string(),
              options.gradation == Gradation::surface ? "surface" : "space", field->limits().least,
-             field->limits().largest, "level", "voxel mm", "blocks", "MB", "s");
+             field->limits().largest, "level", "voxel mm", "blocks", "MB");
   double megabytes = 0;
   int number = 0;
   for (const SizingField::Level& level : field->levels()) {
     const double own = static_cast<double>(level.bytes) / 1e6;
     megabytes += own;
-    fmt::print("{:>6}{:>12.4g}{:>10}{:>10.2f}{:>10.3f}\n", number++, level.voxel, level.blocks, own,
-               level.seconds);
+    fmt::print("{:>6}{:>12.4g}{:>10}{:>10.2f}\n", number++, level.voxel, level.blocks, own);
   }
   fmt::print("{:<28}{:>20.2f}{:>10.3f}  all of it, from the clock; the process grew by {:.0f} MB\n\n",
              "field", megabytes, seconds, peak_megabytes() - before);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <queue>
 
@@ -149,10 +148,8 @@ bool SizeCascade::is_fresh() const {
 void SizeCascade::grade(double slope, const Near& near, BlockCount& blocks, const ExecutionContext& context) {
   ++stamp_;
   for (int level = levels() - 1; level >= 0; --level) {
-    const auto started = std::chrono::steady_clock::now();
     if (level + 1 < levels()) take_over(level, blocks);
     grade_level(level, slope, near, blocks, context);
-    seconds_[level] += std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   }
   last_level_ = -1;
   accessor_.reset();

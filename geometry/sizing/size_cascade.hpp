@@ -9,7 +9,6 @@
 #include <openvdb/tree/LeafNode.h>
 #include <openvdb/tree/RootNode.h>
 
-#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -141,9 +140,6 @@ class SizeCascade {
   /// length. Coarser levels take over the values of finer ones.
   void grade(double slope, const Near& near, BlockCount& blocks, const ExecutionContext& context);
 
-  /// Seconds spent on grading a level.
-  double seconds(int level) const { return seconds_[level]; }
-
   /// Visits all active voxels: visit(level, coordinates, value).
   template <class Visit>
   void for_each(Visit&& visit) const {
@@ -189,7 +185,6 @@ class SizeCascade {
   std::vector<std::unique_ptr<SizeTree>> trees_;
   std::vector<std::vector<Coord>> fresh_;    // (levels) voxels lowered since the last grading
   std::vector<std::vector<Coord>> changed_;  // (levels) voxels lowered before or by the current grading
-  std::array<double, max_size_levels> seconds_{};
   std::unique_ptr<VoxelAccessor> accessor_;  // for the level lowered last
   int last_level_ = -1;
   std::uint32_t stamp_ = 0;  // number of gradings

@@ -334,7 +334,6 @@ std::vector<SizingField::Level> SizingField::levels() const {
   for (const auto& cascade : impl_->cascades) {
     for (int i = 0; i < cascade->levels(); ++i) {
       if (static_cast<int>(levels.size()) <= i) levels.push_back({impl_->frame.voxel(i)});
-      levels[i].seconds += cascade->seconds(i);
       if (cascade->tree(i) == nullptr) continue;
       levels[i].blocks += static_cast<std::int64_t>(cascade->tree(i)->leafCount());
       levels[i].bytes += static_cast<std::int64_t>(cascade->tree(i)->memUsage());

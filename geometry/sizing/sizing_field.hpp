@@ -88,7 +88,6 @@ class SizingField {
     double voxel = 0;         ///< voxel width, millimeters
     std::int64_t blocks = 0;  ///< number of blocks of 8 x 8 x 8 voxels
     std::int64_t bytes = 0;   ///< memory of its trees
-    double seconds = 0;       ///< time for the gradation, sum over all threads
   };
   /// All levels, coarsest first.
   std::vector<Level> levels() const;

@@ -1,4 +1,4 @@
-/// Divides each side's length by the size at its middle, and counts the ratios on a logarithmic scale.
+/// Divides each side's length by the size at its middle.
 
 #include "mesher/shell/size_fidelity.hpp"
 
@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -23,23 +22,14 @@ namespace quadrille {
 
 namespace {
 
-constexpr int bins_a_factor = 4;        // per factor of two
-constexpr double histogram_low = 0.25;  // the histogram ends at its inverse
-constexpr int bins = 4 * bins_a_factor;
-
 SizeFidelity summary(std::vector<double> ratios) {
   SizeFidelity result;
-  for (int bin = 0; bin < bins; ++bin)
-    result.histogram.push_back({histogram_low * std::exp2(1.0 * bin / bins_a_factor),
-                                histogram_low * std::exp2((bin + 1.0) / bins_a_factor), 0});
   result.sides = static_cast<int>(ratios.size());
   if (ratios.empty()) return result;
   int below = 0, above = 0;
   for (const double ratio : ratios) {
     below += ratio < SizeFidelity::low;
     above += ratio > SizeFidelity::high;
-    const double place = std::floor(bins_a_factor * std::log2(ratio / histogram_low));
-    ++result.histogram[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))].count;
   }
   result.below_percent = 100.0 * below / result.sides;
   result.above_percent = 100.0 * above / result.sides;
@@ -84,16 +74,13 @@ class WantedSides {
 }  // namespace
 
 nlohmann::ordered_json SizeFidelity::json() const {
-  nlohmann::ordered_json bars = nlohmann::ordered_json::array();
-  for (const Bin& bin : histogram) bars.push_back({{"from", bin.from}, {"to", bin.to}, {"count", bin.count}});
   return {{"sides", sides},
           {"median", median},
           {"within_percent", within_percent},
           {"below_percent", below_percent},
           {"above_percent", above_percent},
           {"low", low},
-          {"high", high},
-          {"histogram", bars}};
+          {"high", high}};
 }
 
 SizeFidelity size_fidelity(const ShellMesh& mesh, const SizingField& field, const CadShape& shape) {

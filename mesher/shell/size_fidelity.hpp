@@ -12,16 +12,11 @@ namespace quadrille {
 /// The ratios of the lengths of element sides to the sizes wanted at their middles.
 struct SizeFidelity {
   static constexpr double low = 0.55, high = 1.6;  ///< the range of good ratios
-  struct Bin {
-    double from, to;
-    int count;
-  };
-  int sides = 0;               ///< number of sides
-  double median = 0;           ///< median ratio
-  double within_percent = 0;   ///< sides with a ratio from low to high
-  double below_percent = 0;    ///< sides with a ratio below low
-  double above_percent = 0;    ///< sides with a ratio above high
-  std::vector<Bin> histogram;  ///< four bins per factor of two; the end bins also hold all beyond
+  int sides = 0;                                   ///< number of sides
+  double median = 0;                               ///< median ratio
+  double within_percent = 0;                       ///< sides with a ratio from low to high
+  double below_percent = 0;                        ///< sides with a ratio below low
+  double above_percent = 0;                        ///< sides with a ratio above high
 
   nlohmann::ordered_json json() const;
 };
