@@ -291,9 +291,7 @@ py::object fidelity_of(const PythonMesh& mesh) {
   const RemeshFidelity& fidelity = *mesh.fidelity;
   return py::dict(py::arg("mesh_from_surface") = distance(fidelity.of_mesh),
                   py::arg("surface_from_mesh") = distance(fidelity.of_surface),
-                  py::arg("surface_area") = fidelity.surface_area, py::arg("mesh_area") = fidelity.mesh_area,
-                  py::arg("surface_volume") = fidelity.surface_volume,
-                  py::arg("mesh_volume") = fidelity.mesh_volume);
+                  py::arg("surface_area") = fidelity.surface_area, py::arg("mesh_area") = fidelity.mesh_area);
 }
 
 PythonMesh recombined(const PythonMesh& mesh, double feature_angle, const std::optional<double>& merge,
@@ -369,8 +367,7 @@ void bind_arrays(py::class_<PythonMesh>& mesh) {
                              "Of a mesh that remesh() made: a dict of mesh_from_surface and "
                              "surface_from_mesh (dicts of distance "
                              "in mm,\n"
-                             "at, face), surface_area, mesh_area in mm2, surface_volume, mesh_volume in mm3 "
-                             "(0 where it is open). "
+                             "at, face), surface_area, mesh_area in mm2. "
                              "Else None;\nit is not pickled.")
       .def("_repr_html_", &html_of, documented("_repr_html_(self)", "The picture, for notebooks.").c_str())
       .def(py::pickle(&state_of, &from_state));

@@ -34,12 +34,9 @@ nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
   const auto distance = [](const RemeshFidelity::Distance& d) {
     return nlohmann::json{{"distance", d.length}, {"at", d.at}, {"face", fmt::format("Face{}", d.face)}};
   };
-  nlohmann::json result{{"mesh_from_surface", distance(fidelity.of_mesh)},
-                        {"surface_from_mesh", distance(fidelity.of_surface)},
-                        {"area", {{"surface", fidelity.surface_area}, {"mesh", fidelity.mesh_area}}}};
-  if (fidelity.surface_volume != 0)
-    result["volume"] = {{"surface", fidelity.surface_volume}, {"mesh", fidelity.mesh_volume}};
-  return result;
+  return {{"mesh_from_surface", distance(fidelity.of_mesh)},
+          {"surface_from_mesh", distance(fidelity.of_surface)},
+          {"area", {{"surface", fidelity.surface_area}, {"mesh", fidelity.mesh_area}}}};
 }
 
 std::string fidelity_line(const RemeshFidelity& fidelity) {

@@ -4,8 +4,6 @@
 
 #include <map>
 
-#include "mesher/mesh/sides.hpp"
-
 namespace quadrille {
 
 namespace {
@@ -49,21 +47,6 @@ double area_of(const TriangleMesh& mesh) {
   return sum;
 }
 
-double volume_of(const TriangleMesh& mesh) {
-  const Vector3 origin = mesh.points[mesh.triangles.front()[0]];
-  double sum = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    sum += (mesh.points[a] - origin).dot((mesh.points[b] - origin).cross(mesh.points[c] - origin));
-  return sum / 6;
-}
-
-bool is_closed(const TriangleMesh& mesh) {
-  bool closed = true;
-  const auto look = [&](int, int, std::span<const Side> sides) { closed &= sides.size() % 2 == 0; };
-  for_each_shared_side(mesh.points.size(), no_check, look, mesh.triangles);
-  return closed;
-}
-
 void raise(RemeshFidelity::Distance& largest, double length, const Vector3& at, int face) {
   if (length > largest.length) largest = {length, at, face};
 }
@@ -90,10 +73,6 @@ RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<i
     }
   result.surface_area = area_of(surface);
   result.mesh_area = area_of(fans);
-  if (is_closed(surface)) {
-    result.surface_volume = volume_of(surface);
-    result.mesh_volume = volume_of(fans);
-  }
   return result;
 }
 

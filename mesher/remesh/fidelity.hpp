@@ -9,7 +9,7 @@
 
 namespace quadrille {
 
-/// Measures the distances in both directions, the areas, and the volumes if the surface is closed.
+/// Measures the distances in both directions, and the areas.
 /// \param patches (triangles of the surface) the face of each triangle, from 0. \param face_numbers (faces of
 /// the surface) the number of each in the mesh. O(n log n).
 RemeshFidelity measure_fidelity(const TriangleMesh& surface, const std::vector<int>& patches,

@@ -37,8 +37,7 @@ struct RemeshFidelity {
   /// The point of the mesh farthest from the surface: a node, or the middle of a side or of a quad.
   Distance of_mesh;
   Distance of_surface;  ///< the point of the surface's triangulation farthest from the mesh
-  double surface_area = 0 /**< of the input */, mesh_area = 0;      ///< square millimeters
-  double surface_volume = 0 /**< of the input */, mesh_volume = 0;  ///< cubic millimeters; 0 if it is open
+  double surface_area = 0 /**< of the input */, mesh_area = 0;  ///< square millimeters
 };
 
 /// Makes an all-quad mesh of a triangulated surface, at another size. The surface is cut into faces where the

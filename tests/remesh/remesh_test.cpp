@@ -28,6 +28,17 @@ ShellMesh surface_of(std::vector<Vector3> points, std::vector<std::array<int, 3>
   return shell;
 }
 
+/// Inside a closed mesh.
+double volume(const ShellMesh& mesh) {
+  double sum = 0;
+  for (const auto& quad : mesh.quads) {
+    const Vector3 &a = mesh.points[quad[0]], &b = mesh.points[quad[1]], &c = mesh.points[quad[2]],
+                  &d = mesh.points[quad[3]];
+    sum += (a.dot(b.cross(c)) + a.dot(c.cross(d))) / 6;
+  }
+  return sum;
+}
+
 /// A box as .stl files have it: twelve triangles, each with points of its own.
 ShellMesh box(const Vector3& size, const Vector3& at = Vector3::Zero()) {
   const std::array<std::array<int, 4>, 6> sides{
@@ -165,8 +176,7 @@ TEST(Remesh, ABoxKeepsItsVolumeEdgesAndCorners) {
   const ShellMesh mesh = remeshed(box({10, 6, 4}), options, &fidelity);
   EXPECT_EQ(check_and_count_rim(mesh), 0);
   EXPECT_EQ(euler_characteristic(mesh), 2);
-  EXPECT_NEAR(fidelity.mesh_volume, 240, 1e-9);
-  EXPECT_NEAR(fidelity.surface_volume, 240, 1e-9);
+  EXPECT_NEAR(volume(mesh), 240, 1e-9);
   EXPECT_NEAR(fidelity.mesh_area, 248, 1e-9);
   EXPECT_LT(fidelity.of_mesh.length, 1e-12);
   EXPECT_LT(fidelity.of_surface.length, 1e-12);
@@ -307,7 +317,8 @@ TEST(Remesh, ACanKeepsItsRoundRims) {
   }
   ASSERT_EQ(segments.size(), 2u);
   for (const auto& [edge, count] : segments) EXPECT_EQ(count, 28) << "Edge" << edge;
-  EXPECT_NEAR(fidelity.mesh_volume, fidelity.surface_volume, 0.02 * fidelity.surface_volume);
+  const double whole = 12 * 0.5 * n * 25 * std::sin(2 * std::numbers::pi / n);
+  EXPECT_NEAR(volume(mesh), whole, 0.02 * whole);
 }
 
 TEST(Remesh, AnOpenPlateKeepsItsRims) {
@@ -316,7 +327,6 @@ TEST(Remesh, AnOpenPlateKeepsItsRims) {
   const double area = 96 - 6 * std::sqrt(3.0);
   EXPECT_NEAR(fidelity.surface_area, area, 1e-12);
   EXPECT_NEAR(fidelity.mesh_area, area, 1e-9);
-  EXPECT_EQ(fidelity.mesh_volume, 0);
   EXPECT_EQ(euler_characteristic(mesh), 0);
   const int rim = check_and_count_rim(mesh);
   EXPECT_EQ(rim, static_cast<int>(mesh.segments.size()));
@@ -344,7 +354,7 @@ TEST(Remesh, BodiesStayApartAndTouchingCornersTogether) {
   RemeshFidelity fidelity;
   const ShellMesh mesh = remeshed(both, options, &fidelity);
   EXPECT_EQ(check_and_count_rim(mesh), 0);
-  EXPECT_NEAR(fidelity.mesh_volume, 64 + 8 + 27, 1e-9);
+  EXPECT_NEAR(volume(mesh), 64 + 8 + 27, 1e-9);
   EXPECT_EQ(mesh.faces.size(), 18u);
   EXPECT_EQ(euler_characteristic(mesh), 2 + 2 + 2 - 1);
   const auto at_touch = std::count_if(mesh.points.begin(), mesh.points.end(),
