@@ -259,10 +259,11 @@ class OldDocumentTest(unittest.TestCase):
         path = self.document.FileName
         self.document.Part.addProperty("App::PropertyStringList", "Layers", "Mesh").Layers = ["Edge1=0.1,1.2,6"]
         self.document.Part.addProperty("App::PropertyStringList", "Match", "Mesh").Match = ["Face1=Face5"]
+        self.document.Part.addProperty("App::PropertyFloat", "ProximityWalls", "Mesh").ProximityWalls = 2
         self.document.save()
         FreeCAD.closeDocument(self.document.Name)
         self.document = FreeCAD.openDocument(path)
-        for name in ("Layers", "Match"):
+        for name in ("Layers", "Match", "ProximityWalls"):
             self.assertNotIn(name, self.document.Part.PropertiesList)
         self.assertEqual(self.document.Part.Status, state.UP_TO_DATE)
 

@@ -1319,14 +1319,6 @@ Vergleichen Sie sie mit der, die bei der Datei veröffentlicht ist. Beim Install
         <translation>unterteilen</translation>
     </message>
     <message>
-        <source>Across walls</source>
-        <translation>Durch Wände</translation>
-    </message>
-    <message>
-        <source>Elements through the thickness of a wall: sizes on its skins are at most its thickness divided by this number; 0 = any number</source>
-        <translation>Elemente durch die Dicke einer Wand: Größen auf ihren Häuten sind höchstens ihre Dicke geteilt durch diese Zahl; 0 = beliebig viele</translation>
-    </message>
-    <message>
         <source>Across gaps</source>
         <translation>In Engstellen</translation>
     </message>

@@ -1319,14 +1319,6 @@ Comparez-la avec celle publiée à côté du fichier. L’installation l’extra
         <translation>subdiviser</translation>
     </message>
     <message>
-        <source>Across walls</source>
-        <translation>À travers les parois</translation>
-    </message>
-    <message>
-        <source>Elements through the thickness of a wall: sizes on its skins are at most its thickness divided by this number; 0 = any number</source>
-        <translation>Éléments dans l’épaisseur d’une paroi : les tailles sur ses peaux sont au plus son épaisseur divisée par ce nombre ; 0 = n’importe combien</translation>
-    </message>
-    <message>
         <source>Across gaps</source>
         <translation>Dans les passages étroits</translation>
     </message>

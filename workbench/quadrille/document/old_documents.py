@@ -11,7 +11,7 @@ _TYPES = {"Faces": links.PROPERTY, "FlippedFaces": links.PROPERTY, "Status": "Ap
 
 def migrate(mesh) -> None:
     """Converts the properties of a mesh object that was just read to this version's types, with the same meaning."""
-    for name in ("Match", "Layers"):  # options that the mesher no longer has
+    for name in ("Match", "Layers", "ProximityWalls"):  # options that the mesher no longer has
         if name in mesh.PropertiesList:
             mesh.removeProperty(name)
     # add_properties() adds those that are missing altogether.
