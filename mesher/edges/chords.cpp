@@ -52,7 +52,15 @@ class ChordSpacing {
   }
 
   EdgeShares run(const FaceOutlines& sides) {
-    for (const auto& [chord, members] : members_) prescribe(chord, members);
+    // A chord takes over the shares of its first member with prescribed ones.
+    for (const auto& [chord, members] : members_) {
+      const auto edge = std::find_if(members.begin(), members.end(), [&](EdgeId id) { return holds(id); });
+      if (edge == members.end()) continue;
+      shares_[chord] = prescribed_[*edge];
+      if (chords_.against(*edge)) turn_round(shares_[chord]);
+      followed_.insert(chord);
+      is_prescribed_.insert(chord);
+    }
     for (const FaceSides& face : sides) {
       for (const FacingPair& pair : face.facing) {
         follow(pair.first, pair.second);
@@ -75,18 +83,6 @@ class ChordSpacing {
  private:
   bool holds(EdgeId edge) const {
     return !prescribed_[edge].empty() && static_cast<int>(prescribed_[edge].size()) == counts_[edge] + 1;
-  }
-
-  /// The chord takes over the shares of its first member with prescribed ones.
-  void prescribe(EdgeId chord, const std::vector<EdgeId>& members) {
-    for (const EdgeId edge : members) {
-      if (!holds(edge)) continue;
-      shares_[chord] = prescribed_[edge];
-      if (chords_.against(edge)) turn_round(shares_[chord]);
-      followed_.insert(chord);
-      is_prescribed_.insert(chord);
-      return;
-    }
   }
 
   static void turn_round(std::vector<double>& shares) {

@@ -80,17 +80,6 @@ class EdgeTabulator {
   double size_ = 0;
 };
 
-}  // namespace
-
-void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
-  if (!(segments > budget.segments)) return;
-  throw usage_error("size", fmt::format("the edges take more than {:g} million segments at the requested "
-                                        "sizes, many of them on Edge{}: `force` meshes anyway",
-                                        budget.segments / 1e6, edge.number));
-}
-
-namespace {
-
 /// The index of a parameter in a table. Inserts the parameter if it is missing.
 std::size_t split_at(CountTable& table, double t) {
   auto &parameters = table.parameters, &counts = table.counts, &lengths = table.lengths;
@@ -107,6 +96,13 @@ std::size_t split_at(CountTable& table, double t) {
 }
 
 }  // namespace
+
+void hold_segments(double segments, const Budget& budget, const CadEdge& edge) {
+  if (!(segments > budget.segments)) return;
+  throw usage_error("size", fmt::format("the edges take more than {:g} million segments at the requested "
+                                        "sizes, many of them on Edge{}: `force` meshes anyway",
+                                        budget.segments / 1e6, edge.number));
+}
 
 void CountTable::make_finer(double from, double to, double least) {
   const std::size_t first = split_at(*this, from), last = split_at(*this, to);

@@ -2,6 +2,7 @@
 /// The wanted number of segments of an edge, and the places of its nodes. Internal.
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -20,6 +21,15 @@ inline TablePlace place_in(const std::vector<double>& table, double value) {
   const std::size_t i = std::clamp<std::size_t>(it - table.begin(), 1, table.size() - 1) - 1;
   const double span = table[i + 1] - table[i];
   return {i, span > 0 ? std::clamp((value - table[i]) / span, 0.0, 1.0) : 0.5};
+}
+
+/// The way along a line to each of its points, as a share of its length.
+inline std::vector<double> shares_along(const std::vector<Vector3>& line) {
+  std::vector<double> shares{0};
+  for (std::size_t i = 1; i < line.size(); ++i)
+    shares.push_back(shares.back() + (line[i] - line[i - 1]).norm());
+  for (double& share : shares) share /= std::max(shares.back(), std::numeric_limits<double>::min());
+  return shares;
 }
 
 /// The wanted number of segments from the edge's start, as a function of the parameter.

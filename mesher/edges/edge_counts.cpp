@@ -126,8 +126,12 @@ class CountProblem {
  public:
   /// \param sides see choose_counts()
   CountProblem(const CountTargets& targets, const FixedChords& chords, FaceOutlines& sides)
-      : targets_(targets), chords_(chords), sides_(sides) {
-    start_values();
+      : targets_(targets), chords_(chords), sides_(sides), members_(chords.fixed.size()) {
+    units_.assign(chords.fixed.size(), targets.stride);
+    for (const EdgeId edge : units_.ids())
+      if (targets.least[edge] != 0) members_[chords.chords.of(edge)].push_back(edge);
+    problem_.variables.resize(chords.fixed.size());
+    for (const EdgeId chord : units_.ids()) start_value(chord);
   }
 
   /// Balances all faces. Drops faces whose facing sides cannot have equal counts until the others can.
@@ -179,18 +183,8 @@ class CountProblem {
     return result;
   }
 
-  /// Starts each chord near the mean count of its members, in segments of the mesh that is recombined.
-  void start_values() {
-    units_.assign(chords_.fixed.size(), targets_.stride);
-    members_.assign(chords_.fixed.size(), {});
-    for (const EdgeId edge : units_.ids()) {
-      if (targets_.least[edge] != 0) members_[chords_.chords.of(edge)].push_back(edge);
-    }
-    problem_.variables.assign(chords_.fixed.size(), {});
-    for (const EdgeId chord : units_.ids()) start_value(chord);
-  }
-
-  /// Sets all of a chord's variable but its terms. One unit is `units_[chord]` segments of the final mesh.
+  /// Sets all of a chord's variable but its terms, near the mean count of its members. One unit is
+  /// `units_[chord]` segments of the final mesh.
   void start_value(EdgeId chord) {
     const std::vector<EdgeId>& members = members_[chord];
     if (members.empty()) return;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -41,17 +40,6 @@ GridSize size_of(const std::array<Side, 4>& sides) {
   return {static_cast<int>(sides[0].size()) - 1, static_cast<int>(sides[1].size()) - 1};
 }
 
-/// The lengths along a side at its nodes, over the whole length.
-std::vector<double> shares_along(const Side& side, bool turned) {
-  std::vector<double> shares{0};
-  for (std::size_t i = 1; i < side.size(); ++i) {
-    const std::size_t k = turned ? side.size() - i : i;
-    shares.push_back(shares.back() + (side[k] - side[k - 1]).norm());
-  }
-  for (double& share : shares) share /= std::max(shares.back(), std::numeric_limits<double>::min());
-  return shares;
-}
-
 /// The blocks that the holes replace, where all of them find room.
 std::vector<HoleBlock> place_holes(const CadShape& shape, const CadFace& face, const FaceSides& sides,
                                    const std::array<Side, 4>& lines, const BoundaryNodes& nodes) {
@@ -59,7 +47,8 @@ std::vector<HoleBlock> place_holes(const CadShape& shape, const CadFace& face, c
   const GridSize grid = size_of(lines);
   if (grid.columns < fewest || grid.rows < fewest) return {};
   std::array<std::vector<double>, 4> shares;
-  for (std::size_t k = 0; k < shares.size(); ++k) shares[k] = shares_along(lines[k], k >= 2);
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    shares[k] = shares_along(k < 2 ? lines[k] : Side(lines[k].rbegin(), lines[k].rend()));
   const auto cells = [](const std::vector<double>& table, double share) {
     const auto [cell, part] = place_in(table, share);
     return static_cast<double>(cell) + part;

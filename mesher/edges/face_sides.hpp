@@ -49,8 +49,6 @@ struct FaceSides {
   /// Whether a grid fills the face: its nodes face each other, its sides need no room between them, and rows
   /// run from end to end, or all the way around.
   bool is_filled() const { return kind != GridKind::other && kind != GridKind::holed; }
-  /// Whether the face has four sides, each with one count.
-  bool is_rectangle() const { return kind == GridKind::four && facing.size() == 2; }
   /// Whether the face has four sides, which may be cut into parts with counts of their own.
   bool has_four_sides() const { return kind == GridKind::four; }
   /// Whether holes take the place of cells of its grid.

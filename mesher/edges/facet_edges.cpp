@@ -23,21 +23,16 @@ namespace quadrille {
 
 namespace {
 
-/// Knots of a polyline of degree 1 through points at these parameters.
-struct Knots {
-  TColStd_Array1OfReal values;
-  TColStd_Array1OfInteger multiplicities;
-
-  explicit Knots(const std::vector<double>& parameters)
-      : values(1, static_cast<int>(parameters.size())),
-        multiplicities(1, static_cast<int>(parameters.size())) {
-    const int count = values.Length();
-    for (int i = 1; i <= count; ++i) {
-      values.SetValue(i, parameters[i - 1]);
-      multiplicities.SetValue(i, i == 1 || i == count ? 2 : 1);
-    }
-  }
-};
+/// The polyline through poles at these parameters.
+template <class Curve, class Poles>
+Handle(Curve) polyline(const Poles& poles, const std::vector<double>& parameters) {
+  const int count = poles.Length();
+  const TColStd_Array1OfReal knots(parameters.front(), 1, count);
+  TColStd_Array1OfInteger multiplicities(1, count);
+  multiplicities.Init(1);
+  multiplicities.ChangeFirst() = multiplicities.ChangeLast() = 2;
+  return new Curve(poles, knots, multiplicities, 1);
+}
 
 class FacetEdges {
  public:
@@ -135,10 +130,8 @@ class FacetEdges {
     }
     for (const EdgeId edge : chain)
       result.tolerance = std::max(result.tolerance, shape_.edges[edge].tolerance);
-    const Knots knots(parameters);
     const BRep_Builder builder;
-    builder.MakeEdge(result.edge, new Geom_BSplineCurve(poles, knots.values, knots.multiplicities, 1),
-                     result.tolerance);
+    builder.MakeEdge(result.edge, polyline<Geom_BSplineCurve>(poles, parameters), result.tolerance);
     builder.Add(result.edge, vertex_of(chain.front(), vertices.front()).Oriented(TopAbs_FORWARD));
     builder.Add(result.edge, vertex_of(chain.back(), vertices.back()).Oriented(TopAbs_REVERSED));
     builder.Range(result.edge, parameters.front(), parameters.back());
@@ -173,11 +166,10 @@ class FacetEdges {
       poles.SetValue(at, end_of(*first, true));
       for (auto coedge = first; coedge != last; ++coedge)
         poles.SetValue(at += forward ? 1 : -1, end_of(*coedge, false));
-      const Knots knots(parameters);
       Coedge joined = *first;
       joined.edge = chain.front();
       joined.forward = forward;
-      joined.parametric_curve = new Geom2d_BSplineCurve(poles, knots.values, knots.multiplicities, 1);
+      joined.parametric_curve = polyline<Geom2d_BSplineCurve>(poles, parameters);
       const BRep_Builder builder;
       builder.UpdateEdge(whole.edge, joined.parametric_curve, face.face, whole.tolerance);
       joined.source = TopoDS::Edge(whole.edge.Oriented(forward ? TopAbs_FORWARD : TopAbs_REVERSED));

@@ -226,93 +226,74 @@ class HoleFinder {
   IdVector<EdgeId, int> loop_of_;  // index of the loop that an edge is on
 };
 
-/// Makes a shape in which holes are missing.
-class Filler {
- public:
-  explicit Filler(const CadModel& model)
-      : shape_(std::make_shared<CadShape>(model.shape())), result_(CadModel(shape_)) {}
-
-  void fill(const HoleFinder& finder, const std::vector<Hole>& holes) {
-    std::map<FaceId, std::set<std::size_t>> wires;  // to be left out, by host
-    for (const Hole& hole : holes) {
-      ShellMesh::FilledHole filled;
-      const Loop& mouth = finder.loop(hole.loops.front());
-      filled.center = mouth.center;
-      filled.boss = hole.boss;
-      for (const std::size_t i : hole.loops) {
-        const Loop& loop = finder.loop(i);
-        filled.in.push_back(loop.host.number());
-        filled.diameter = std::max(filled.diameter, loop.diameter);
-        wires[loop.host].insert(loop.wire);
-      }
-      for (const FaceId face : hole.faces) leave_out(face, filled);
-      std::sort(filled.in.begin(), filled.in.end());
-      std::sort(filled.faces.begin(), filled.faces.end());
-      result_.holes.push_back(std::move(filled));
-    }
-    for (const auto& [host, which] : wires) close(host, which);
+double area_of(const TopoDS_Face& face) {
+  try {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face, properties);
+    return std::abs(properties.Mass());
+  } catch (const Standard_Failure&) {
+    return 0;  // nothing to compare with: the area of the face is not checked either
   }
+}
 
-  SimplifiedModel result() {
-    std::stable_sort(result_.holes.begin(), result_.holes.end(),
-                     [](const auto& a, const auto& b) { return a.in < b.in; });
-    return std::move(result_);
+/// Takes a face of a hole out of the shape. A hole that was filled in the face before is removed with it.
+void leave_out(FaceId face, ShellMesh::FilledHole& with, CadShape& shape, SimplifiedModel& result) {
+  result.gone[face] = 1;
+  with.faces.push_back(face.number());
+  for (auto& inner : result.holes) {
+    if (std::erase(inner.in, face.number()) > 0 && inner.in.empty())
+      with.faces.insert(with.faces.end(), inner.faces.begin(), inner.faces.end());
   }
+  std::erase_if(result.holes, [](const auto& inner) { return inner.in.empty(); });
+  result.areas[face] = 0;
+  for (const EdgeId edge : shape.faces[face].edges()) shape.edges[edge].faces.clear();
+}
 
-  const CadShape& shape() const { return *shape_; }
-  FaceFlags left(FaceFlags faces) const { return result_.left(std::move(faces)); }
-
- private:
-  /// A hole that was filled in the face before is removed with it.
-  void leave_out(FaceId face, ShellMesh::FilledHole& with) {
-    result_.gone[face] = 1;
-    with.faces.push_back(face.number());
-    for (auto& inner : result_.holes) {
-      if (std::erase(inner.in, face.number()) > 0 && inner.in.empty())
-        with.faces.insert(with.faces.end(), inner.faces.begin(), inner.faces.end());
+/// Removes wires from a face. \param which indices of the wires \return by how much its area grows
+double close(CadFace& face, const std::set<std::size_t>& which, CadShape& shape) {
+  std::vector<CadWire> left;
+  TopTools_MapOfShape gone;
+  for (std::size_t i = 0; i < face.wires.size(); ++i) {
+    if (!which.contains(i)) {
+      left.push_back(face.wires[i]);
+      continue;
     }
-    std::erase_if(result_.holes, [](const auto& inner) { return inner.in.empty(); });
-    result_.areas[face] = 0;
-    for (const EdgeId edge : shape_->faces[face].edges()) shape_->edges[edge].faces.clear();
-  }
-
-  void close(FaceId host, const std::set<std::size_t>& which) {
-    CadFace& face = shape_->faces[host];
-    std::vector<CadWire> left;
-    TopTools_MapOfShape gone;
-    for (std::size_t i = 0; i < face.wires.size(); ++i) {
-      if (!which.contains(i)) {
-        left.push_back(face.wires[i]);
-        continue;
-      }
-      for (const Coedge& coedge : face.wires[i].coedges) {
-        shape_->edges[coedge.edge].faces.clear();
-        gone.Add(coedge.source);
-      }
-    }
-    face.wires = std::move(left);
-    const TopoDS_Face before = face.face;
-    face.face = TopoDS::Face(before.EmptyCopied());
-    for (TopoDS_Iterator wire(before); wire.More(); wire.Next()) {
-      const TopExp_Explorer edge(wire.Value(), TopAbs_EDGE);
-      if (!edge.More() || !gone.Contains(edge.Current())) BRep_Builder().Add(face.face, wire.Value());
-    }
-    result_.areas[host] += area_of(face.face) - area_of(before);
-  }
-
-  static double area_of(const TopoDS_Face& face) {
-    try {
-      GProp_GProps properties;
-      BRepGProp::SurfaceProperties(face, properties);
-      return std::abs(properties.Mass());
-    } catch (const Standard_Failure&) {
-      return 0;  // nothing to compare with: the area of the face is not checked either
+    for (const Coedge& coedge : face.wires[i].coedges) {
+      shape.edges[coedge.edge].faces.clear();
+      gone.Add(coedge.source);
     }
   }
+  face.wires = std::move(left);
+  const TopoDS_Face before = face.face;
+  face.face = TopoDS::Face(before.EmptyCopied());
+  for (TopoDS_Iterator wire(before); wire.More(); wire.Next()) {
+    const TopExp_Explorer edge(wire.Value(), TopAbs_EDGE);
+    if (!edge.More() || !gone.Contains(edge.Current())) BRep_Builder().Add(face.face, wire.Value());
+  }
+  return area_of(face.face) - area_of(before);
+}
 
-  std::shared_ptr<CadShape> shape_;
-  SimplifiedModel result_;  // of the shape
-};
+/// Makes holes missing in the shape. \param result of the shape
+void fill(const HoleFinder& finder, const std::vector<Hole>& holes, CadShape& shape,
+          SimplifiedModel& result) {
+  std::map<FaceId, std::set<std::size_t>> wires;  // to be left out, by host
+  for (const Hole& hole : holes) {
+    ShellMesh::FilledHole filled;
+    filled.center = finder.loop(hole.loops.front()).center;
+    filled.boss = hole.boss;
+    for (const std::size_t i : hole.loops) {
+      const Loop& loop = finder.loop(i);
+      filled.in.push_back(loop.host.number());
+      filled.diameter = std::max(filled.diameter, loop.diameter);
+      wires[loop.host].insert(loop.wire);
+    }
+    for (const FaceId face : hole.faces) leave_out(face, filled, shape, result);
+    std::sort(filled.in.begin(), filled.in.end());
+    std::sort(filled.faces.begin(), filled.faces.end());
+    result.holes.push_back(std::move(filled));
+  }
+  for (const auto& [host, which] : wires) result.areas[host] += close(shape.faces[host], which, shape);
+}
 
 }  // namespace
 
@@ -320,14 +301,17 @@ SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const S
                            double diameter) {
   constexpr int most_passes = 8;  // holes inside holes
   if (!(diameter > 0)) return SimplifiedModel(model);
-  Filler filler(model);
+  const auto shape = std::make_shared<CadShape>(model.shape());
+  SimplifiedModel result((CadModel(shape)));
   for (int pass = 0; pass < most_passes; ++pass) {
-    const HoleFinder finder(filler.shape(), filler.left(used), sizing, diameter);
+    const HoleFinder finder(*shape, result.left(used), sizing, diameter);
     const std::vector<Hole> holes = finder.find();
     if (holes.empty()) break;
-    filler.fill(finder, holes);
+    fill(finder, holes, *shape, result);
   }
-  return filler.result();
+  std::stable_sort(result.holes.begin(), result.holes.end(),
+                   [](const auto& a, const auto& b) { return a.in < b.in; });
+  return result;
 }
 
 }  // namespace quadrille

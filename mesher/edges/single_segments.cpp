@@ -13,79 +13,61 @@ namespace {
 /// The largest number of segments by the sizing field to which one is nearer than two, by ratio.
 constexpr double most_wanted = 1.42;
 
-class SingleSegments {
- public:
-  SingleSegments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
-                 EdgeCounts& chosen)
-      : shape_(shape), targets_(targets), sides_(sides), chosen_(chosen), single_(targets.wanted.size(), 0) {}
-
-  void run() {
-    for (const EdgeId edge : single_.ids()) single_[chord(edge)] |= chosen_.counts[edge] == 2;
-    for (const EdgeId edge : single_.ids())
-      if (chosen_.counts[edge] > 0) single_[chord(edge)] &= may_be_single(edge);
-    for (const FaceSides& sides : sides_) keep_sums(sides);
-    keep_faces_even();
-    for (const EdgeId edge : single_.ids())
-      if (is_single(edge)) chosen_.counts[edge] = 1;
-  }
-
- private:
-  EdgeId chord(EdgeId edge) const { return chosen_.chords.of(edge); }
-
-  bool is_single(EdgeId edge) const { return chosen_.counts[edge] > 0 && single_[chord(edge)] != 0; }
-
-  bool may_be_single(EdgeId edge) const {
-    return targets_.least_of_grids[edge] <= 1 && targets_.fixed[edge] == 0 && !is_set(targets_.even, edge) &&
-           targets_.wanted[edge] * targets_.stride <= most_wanted;
-  }
-
-  /// Chords on which sums over sides of several edges depend keep their segments, and so do the sides around
-  /// holes in grids, and those of triangles, which could no longer be subdivided.
-  void keep_sums(const FaceSides& sides) {
-    for (const FacingPair& pair : sides.facing) {
-      std::map<EdgeId, int> sums;
-      for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];
-      for (const SideEdge& edge : pair.second) --sums[chord(edge.edge)];
-      for (const auto& [id, sum] : sums)
-        if (sum != 0 || sides.has_holes()) single_[id] = 0;
+/// Chords that keep two segments so that the sums around all faces stay even.
+/// \param is_single whether an edge would otherwise get one
+template <class IsSingle>
+EdgeFlags kept_for_parity(const CadShape& shape, const CountTargets& targets, const Chords& chords,
+                          IsSingle&& is_single) {
+  IdVector<EdgeId, ParityEdge> edges(targets.wanted.size());
+  FaceFlags odd(shape.faces.size(), 0);
+  for (const FaceId face : shape.faces.ids()) {
+    std::map<EdgeId, int> uses;  // of chords by the face
+    for (const EdgeId edge : shape.faces[face].edges())
+      if (is_single(edge)) ++uses[chords.of(edge)];
+    for (const auto& [id, count] : uses) {
+      if (count % 2 == 0) continue;
+      edges[id].faces.push_back(face);
+      odd[face] ^= 1;
     }
-    if (!sides.may_be_odd) return;
-    for (const EdgeId edge : sides.rest) single_[chord(edge)] = 0;
   }
-
-  void keep_faces_even() {
-    IdVector<EdgeId, ParityEdge> edges(single_.size());
-    FaceFlags odd(shape_.faces.size(), 0);
-    for (const FaceId face : shape_.faces.ids()) {
-      std::map<EdgeId, int> uses;  // of chords by the face
-      for (const EdgeId edge : shape_.faces[face].edges())
-        if (is_single(edge)) ++uses[chord(edge)];
-      for (const auto& [id, count] : uses) {
-        if (count % 2 == 0) continue;
-        edges[id].faces.push_back(face);
-        odd[face] ^= 1;
-      }
-    }
-    for (const EdgeId edge : edges.ids())
-      if (is_single(edge)) edges[chord(edge)].cost += 1;
-    std::vector<FaceId> left;
-    const EdgeFlags keep = make_even(edges, odd, left, targets_.check);
-    for (const EdgeId edge : keep.ids())
-      if (keep[edge]) single_[edge] = 0;
-  }
-
-  const CadShape& shape_;
-  const CountTargets& targets_;
-  const FaceOutlines& sides_;
-  EdgeCounts& chosen_;
-  EdgeFlags single_;  // (chords) 1 = gets one segment
-};
+  for (const EdgeId edge : edges.ids())
+    if (is_single(edge)) edges[chords.of(edge)].cost += 1;
+  std::vector<FaceId> left;
+  return make_even(edges, odd, left, targets.check);
+}
 
 }  // namespace
 
 void choose_single_segments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
                             EdgeCounts& chosen) {
-  if (targets.stride == 2) SingleSegments(shape, targets, sides, chosen).run();
+  if (targets.stride != 2) return;
+  EdgeFlags single(targets.wanted.size(), 0);  // (chords) 1 = gets one segment
+  const auto chord = [&](EdgeId edge) { return chosen.chords.of(edge); };
+  const auto is_single = [&](EdgeId edge) { return chosen.counts[edge] > 0 && single[chord(edge)] != 0; };
+  for (const EdgeId edge : single.ids()) single[chord(edge)] |= chosen.counts[edge] == 2;
+  for (const EdgeId edge : single.ids())
+    if (chosen.counts[edge] > 0 &&
+        (targets.least_of_grids[edge] > 1 || targets.fixed[edge] != 0 || is_set(targets.even, edge) ||
+         targets.wanted[edge] * targets.stride > most_wanted))
+      single[chord(edge)] = 0;
+  // Chords on which sums over sides of several edges depend keep their segments, and so do the sides around
+  // holes in grids, and those of triangles, which could no longer be subdivided.
+  for (const FaceSides& face : sides) {
+    for (const FacingPair& pair : face.facing) {
+      std::map<EdgeId, int> sums;
+      for (const SideEdge& edge : pair.first) ++sums[chord(edge.edge)];
+      for (const SideEdge& edge : pair.second) --sums[chord(edge.edge)];
+      for (const auto& [id, sum] : sums)
+        if (sum != 0 || face.has_holes()) single[id] = 0;
+    }
+    for (const EdgeId edge : face.rest)
+      if (face.may_be_odd) single[chord(edge)] = 0;
+  }
+  const EdgeFlags keep = kept_for_parity(shape, targets, chosen.chords, is_single);
+  for (const EdgeId edge : keep.ids())
+    if (keep[edge]) single[edge] = 0;
+  for (const EdgeId edge : single.ids())
+    if (is_single(edge)) chosen.counts[edge] = 1;
 }
 
 }  // namespace quadrille

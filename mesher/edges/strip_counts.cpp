@@ -63,10 +63,7 @@ StripRefiner::Waist StripRefiner::waist_between(std::span<const FacingPair> alon
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(a.size() - 1);
     const double straight = (1 - share) * at_start + share * at_end;
-    double width = straight;
-    for (std::size_t k = 1; k < b.size(); ++k)
-      width = std::min(width, distance_to_segment(a[i], b[k - 1], b[k]));
-    const double ratio = straight > 0 ? width / straight : 1;
+    const double ratio = straight > 0 ? std::min(straight, distance_to_line(a[i], b)) / straight : 1;
     result.narrowest = std::min(result.narrowest, ratio);
     sum += ratio;
   }

@@ -3,6 +3,7 @@
 #include "mesher/edges/tiny_features.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "geometry/base/vector.hpp"
@@ -225,18 +226,18 @@ std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward)
   return points;
 }
 
+double distance_to_line(const Vector3& point, const std::vector<Vector3>& line) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < line.size(); ++i)
+    least = std::min(least, distance_to_segment(point, line[i - 1], line[i]));
+  return least;
+}
+
 double distance_between(const CadEdge& edge, const CadEdge& other) {
   constexpr int samples = 16, dense = 256;
   const std::vector<Vector3> along = points_along(edge, samples), points = points_along(other, dense);
   double farthest = 0;
-  for (int i = 1; i < samples; ++i) {
-    const Vector3& p = along[i];
-    double nearest = (p - points[0]).norm();
-    for (int k = 0; k < dense; ++k) {
-      nearest = std::min(nearest, distance_to_segment(p, points[k], points[k + 1]));
-    }
-    farthest = std::max(farthest, nearest);
-  }
+  for (int i = 1; i < samples; ++i) farthest = std::max(farthest, distance_to_line(along[i], points));
   return farthest;
 }
 

@@ -57,6 +57,9 @@ IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used
 /// whether they begin at the edge's start
 std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward = true);
 
+/// The distance of a point from a polyline; infinite from one without segments.
+double distance_to_line(const Vector3& point, const std::vector<Vector3>& line);
+
 /// The farthest that an edge's curve lies from another one's, at samples between its ends.
 double distance_between(const CadEdge& edge, const CadEdge& other);
 

@@ -9,6 +9,7 @@
 #include "mesher/faces/boundary_crossings.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -137,23 +138,19 @@ std::vector<std::pair<int, int>> crossing_segments(const FaceBoundary& boundary)
 std::vector<std::pair<int, int>> crowding_segments(const FaceBoundary& boundary) {
   std::vector<std::pair<int, int>> pairs;
   if (boundary.stride != 2) return pairs;
-  std::vector<Span> spans;
+  std::map<int, Span> spans;
   std::vector<Box> boxes;
-  spans.reserve(boundary.segments.size());
   for (int i = 0; i < static_cast<int>(boundary.segments.size()); ++i) {
     const auto& segment = boundary.segments[i];
-    if (segment.degenerate || segment.middle_node < 0) {
-      spans.emplace_back(std::vector<Point>{});
-      continue;
-    }
-    spans.emplace_back(std::vector{to_point(boundary.uv[segment.a]), to_point(segment.middle_uv),
-                                   to_point(boundary.uv[segment.b])});
-    const auto& bulge = spans.back().bulges;
+    if (segment.degenerate || segment.middle_node < 0) continue;
+    const std::vector line{to_point(boundary.uv[segment.a]), to_point(segment.middle_uv),
+                           to_point(boundary.uv[segment.b])};
+    const auto& bulge = spans.emplace(i, line).first->second.bulges;
     boxes.emplace_back(bulge[0].bbox() + bulge[1].bbox() + bulge[2].bbox(), i);
   }
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
     const auto &s = boundary.segments[a.info()], &t = boundary.segments[b.info()];
-    if (!boundary.touch(s, t) && crowd(spans[a.info()], spans[b.info()]))
+    if (!boundary.touch(s, t) && crowd(spans.at(a.info()), spans.at(b.info())))
       pairs.push_back(std::minmax(a.info(), b.info()));
   });
   std::sort(pairs.begin(), pairs.end());

@@ -44,22 +44,19 @@ Vector2 enclosed(const FaceBoundary& boundary, const FaceSurface& surface, const
 /// Moves wires by whole periods to the widest one: in files, holes may be a period away. \param starts first
 /// point of each wire, then the number of points
 void gather_wires(FaceBoundary& boundary, const std::vector<int>& starts, int axis, double period) {
-  const auto bounds = [&](std::size_t wire) {
-    std::pair<double, double> range{std::numeric_limits<double>::infinity(),
-                                    -std::numeric_limits<double>::infinity()};
-    for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
-      range.first = std::min(range.first, boundary.uv[i][axis]);
-      range.second = std::max(range.second, boundary.uv[i][axis]);
-    }
-    return range;
-  };
+  std::vector<std::pair<double, double>> ranges;
   std::pair<double, double> widest{0, 0};
   for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
-    const auto range = bounds(wire);
-    if (range.second - range.first > widest.second - widest.first) widest = range;
+    auto& [low, high] = ranges.emplace_back(std::numeric_limits<double>::infinity(),
+                                            -std::numeric_limits<double>::infinity());
+    for (int i = starts[wire]; i < starts[wire + 1]; ++i) {
+      low = std::min(low, boundary.uv[i][axis]);
+      high = std::max(high, boundary.uv[i][axis]);
+    }
+    if (high - low > widest.second - widest.first) widest = {low, high};
   }
   for (std::size_t wire = 0; wire + 1 < starts.size(); ++wire) {
-    const auto [low, high] = bounds(wire);
+    const auto [low, high] = ranges[wire];
     // Moves only wires that lie outside entirely: one that reaches over an end belongs there.
     if (!(low >= widest.second) && !(high <= widest.first)) continue;
     const double away = 0.5 * (widest.first + widest.second - low - high);
@@ -162,6 +159,10 @@ class BoundaryWalker {
     bool after_gap = false;                       // the edges just before it became points
     Vector3 leaving{0, 0, 0}, arriving{0, 0, 0};  // tangents at start and end, in the wire's direction
   };
+
+  void add_point_segment(int a, int b) {
+    boundary_.segments.push_back({.a = a, .b = b, .edge = {}, .degenerate = true});
+  }
 
   int add_point(const Vector2& uv, int node) { return boundary_.add(uv, nodes_.points[node], node); }
 
@@ -272,18 +273,13 @@ class BoundaryWalker {
   Run walk_pole(const CadWire& wire, std::size_t at, const CadEdge& edge) {
     const Coedge& coedge = wire.coedges[at];
     const int node = edge.first_vertex.exists() ? nodes_.vertex_nodes[edge.first_vertex] : -1;
-    if (node < 0 || surface_.is_view() || ends_before(wire, at)) return {};
+    const Coedge& next = wire.coedges[(at + 1) % wire.coedges.size()];
+    if (node < 0 || surface_.is_view() || nodes_.left_out.contains({id_, next.edge})) return {};
     Vector2 from = parametric_point(coedge, edge.first), to = parametric_point(coedge, edge.last);
     // CAD translators also close wires with edges marked degenerate that are not poles.
     if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
     return add_pole(from, to, node, is_tip(wire, at) ? 1 : pole_segments);
-  }
-
-  /// Whether the face ends before the pole.
-  bool ends_before(const CadWire& wire, std::size_t at) const {
-    const std::size_t n = wire.coedges.size();
-    return nodes_.left_out.contains({id_, wire.coedges[(at + 1) % n].edge});
   }
 
   /// Whether the face is so narrow between the coedges beside a pole that no elements fit side by side.
@@ -315,11 +311,7 @@ class BoundaryWalker {
     for (int k = 1; k <= count; ++k) {
       const double t = static_cast<double>(k) / count;
       run.last = add_point((1 - t) * from + t * to, node);
-      FaceBoundary::Segment segment;
-      segment.a = run.last - 1;
-      segment.b = run.last;
-      segment.degenerate = true;
-      boundary_.segments.push_back(segment);
+      add_point_segment(run.last - 1, run.last);
     }
     run.end_segment = static_cast<int>(boundary_.segments.size());
     return run;
@@ -335,14 +327,7 @@ class BoundaryWalker {
     const double nearby = std::max(scaled_distance(boundary_, scale_, last.a, last.b),
                                    scaled_distance(boundary_, scale_, first.a, first.b));
     const double jump = scaled_distance(boundary_, scale_, a, b);
-    if (jump > 0.5 * nearby && !next.after_gap) {
-      FaceBoundary::Segment gap;
-      gap.a = a;
-      gap.b = b;
-      gap.degenerate = true;
-      boundary_.segments.push_back(gap);
-      return;
-    }
+    if (jump > 0.5 * nearby && !next.after_gap) return add_point_segment(a, b);
     boundary_.uv[b] = 0.5 * (boundary_.uv[a] + boundary_.uv[b]);
     if (run.arriving.norm() * next.leaving.norm() > 0) {
       const Vector3 normal = surface_.normal(boundary_.uv[b]);
@@ -387,12 +372,11 @@ FaceBoundary halved(FaceBoundary boundary) {
     shift[i] = static_cast<int>(segments.size());
     segments.push_back(whole);
     if (whole.degenerate || whole.middle_node == -1) continue;
-    const int middle = boundary.add(whole.middle_uv, whole.middle_point, whole.middle_node, M_PI);
-    segments.push_back(whole);
-    FaceBoundary::Segment &first = segments[segments.size() - 2], &second = segments.back();
-    first.b = second.a = middle;
+    FaceBoundary::Segment second = whole, &first = segments.back();
+    first.b = second.a = boundary.add(whole.middle_uv, whole.middle_point, whole.middle_node, M_PI);
     first.to = second.from = 0.5 * (whole.from + whole.to);
     first.middle_node = second.middle_node = -1;
+    segments.push_back(second);
   }
   for (auto& wire : boundary.first_segments) {
     for (int& first : wire) first = first < 0 ? first : shift[first];

@@ -180,17 +180,9 @@ class GridMaker {
   /// Makes rows between two loops, rotated so that the distances between their nodes are smallest.
   bool make_ring(const Line& outer, Line inner) {
     if (outer.size() != inner.size()) return false;
-    const int n = static_cast<int>(outer.size());
     std::rotate(inner.begin(), inner.begin() + nearest_shift(outer, inner).first, inner.end());
-    const int mid = n / 2;
-    const std::vector<double> shares = rows_between(outer[mid], inner[mid]);
-    std::vector<Line> rows{outer};
-    for (std::size_t k = 1; k + 1 < shares.size(); ++k) {
-      Line& row = rows.emplace_back();
-      for (int i = 0; i < n; ++i) row.push_back(add_between(outer[i], inner[i], shares[k]));
-    }
-    rows.push_back(inner);
-    add_rows(rows);
+    const std::size_t middle = outer.size() / 2;
+    add_rings(outer, inner, rows_between(outer[middle], inner[middle]));
     return true;
   }
 
@@ -249,14 +241,10 @@ class GridMaker {
     return static_cast<int>(grid_.uv.size()) - 1;
   }
 
-  int add_between(int a, int b, double t) { return add_point((1 - t) * grid_.uv[a] + t * grid_.uv[b]); }
-
   std::vector<double> shares_of(const Line& line) const {
-    std::vector<double> shares{0};
-    for (std::size_t i = 1; i < line.size(); ++i)
-      shares.push_back(shares.back() + (grid_.points[line[i]] - grid_.points[line[i - 1]]).norm());
-    for (double& share : shares) share /= std::max(shares.back(), std::numeric_limits<double>::min());
-    return shares;
+    std::vector<Vector3> places;
+    for (const int point : line) places.push_back(grid_.points[point]);
+    return shares_along(places);
   }
 
   void add_cell(const std::vector<Line>& rows, std::size_t i, std::size_t j) {
@@ -304,23 +292,21 @@ class GridMaker {
     }
     const int rings = std::max(1, round_to_int(way / length));
     grid_.rings = grid_.rings == 0 ? rings : std::min(grid_.rings, rings);
-    std::vector<Line> lines{outline};
-    for (int ring = 1; ring < rings; ++ring) {
-      Line& line = lines.emplace_back();
-      for (std::size_t k = 0; k < n; ++k)
-        line.push_back(add_between(outline[k], hole[k], static_cast<double>(ring) / rings));
-    }
-    lines.push_back(hole);
-    add_rows(lines);
+    std::vector<double> shares;
+    for (int ring = 0; ring <= rings; ++ring) shares.push_back(static_cast<double>(ring) / rings);
+    add_rings(outline, hole, shares);
   }
 
-  /// Adds quads between consecutive closed lines.
-  void add_rows(const std::vector<Line>& lines) {
-    const std::size_t n = lines.front().size();
-    for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
-      for (std::size_t i = 0; i < n; ++i) {
-        const std::size_t next = (i + 1) % n;
-        grid_.quads.push_back({lines[k][i], lines[k][next], lines[k + 1][next], lines[k + 1][i]});
+  /// Adds points and rings of quads between two closed lines, with lines at shares of the way from 0 to 1.
+  void add_rings(const Line& outer, const Line& inner, const std::vector<double>& shares) {
+    Line line = outer;
+    for (std::size_t k = 1; k < shares.size(); ++k) {
+      const Line before = std::exchange(line, inner);
+      for (std::size_t i = 0; i < line.size() && k + 1 < shares.size(); ++i)
+        line[i] = add_point((1 - shares[k]) * grid_.uv[outer[i]] + shares[k] * grid_.uv[inner[i]]);
+      for (std::size_t i = 0; i < line.size(); ++i) {
+        const std::size_t next = (i + 1) % line.size();
+        grid_.quads.push_back({before[i], before[next], line[next], line[i]});
       }
     }
   }

@@ -21,6 +21,7 @@
 
 #include <fmt/format.h>
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/property_map/function_property_map.hpp>
 
 #include "geometry/base/place_text.hpp"
 #include "mesher/faces/face_problem.hpp"
@@ -46,20 +47,6 @@ FaceProblem no_triangles(FaceId face, const Vector3& near) {
       Cause::no_mesh, face,
       fmt::format("the boundary of Face{} encloses no triangles near {}", face.number(), place_text(near))};
 }
-
-/// Points by index for CGAL's sorting. It is a single call, so accesses to points check the context at times.
-struct CheckedPoints {
-  using key_type = std::size_t;
-  using value_type = Kernel::Point_2;
-  using reference = const Kernel::Point_2&;
-  using category = boost::readable_property_map_tag;
-  friend reference get(const CheckedPoints& points, key_type i) {
-    (*points.check)();
-    return points.data[i];
-  }
-  const Kernel::Point_2* data;
-  SparseCheck* check;
-};
 
 class Triangulator {
  public:
@@ -102,10 +89,8 @@ class Triangulator {
     handles_.assign(points.size(), nullptr);
     for (auto v = cdt_.finite_vertices_begin(); v != cdt_.finite_vertices_end(); ++v) handles_[v->info()] = v;
     // A point that coincides with another one was not inserted: find that other one.
-    for (std::size_t i = 0; i < boundary_.uv.size(); ++i) {
-      if (handles_[i] != nullptr) continue;
-      handles_[i] = cdt_.insert(points[i]);
-    }
+    for (std::size_t i = 0; i < boundary_.uv.size(); ++i)
+      if (handles_[i] == nullptr) handles_[i] = cdt_.insert(points[i]);
   }
 
   /// Inserts points as CGAL inserts a range, which is one call without checks and takes 1 s for a million
@@ -115,8 +100,14 @@ class Triangulator {
     std::iota(order.begin(), order.end(), std::size_t{0});
     constexpr int looks = 1 << 16;
     SparseCheck check_sorting(context_, looks);
-    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CheckedPoints>;
-    CGAL::spatial_sort(order.begin(), order.end(), Traits(CheckedPoints{points.data(), &check_sorting}));
+    // Sorting is a single call, so accesses to points check the context at times.
+    const auto point_at = [&](std::size_t i) -> const Kernel::Point_2& {
+      check_sorting();
+      return points[i];
+    };
+    using Points = boost::function_property_map<decltype(point_at), std::size_t, const Kernel::Point_2&>;
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, Points>;
+    CGAL::spatial_sort(order.begin(), order.end(), Traits(Points(point_at)));
     Cdt::Face_handle hint;
     for (const std::size_t i : order) {
       check_();
@@ -219,6 +210,7 @@ class CrackOpener {
   void run() {
     find_cracks();
     if (cracks_.empty()) return;
+    original_ = triangles_;
     std::set<int> ends;
     for (const auto& [key, segment] : cracks_) ends.insert({key.first, key.second});
     collect_corners(ends);
@@ -241,20 +233,18 @@ class CrackOpener {
     }
   }
 
-  /// Collects the corners (3 t + k) at each end of a crack, and the points of all corners before the splits.
+  /// Collects the corners (3 t + k) at each end of a crack.
   void collect_corners(const std::set<int>& ends) {
-    original_.reserve(3 * triangles_.size());
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       check_();
       for (int k = 0; k < 3; ++k) {
-        original_.push_back(triangles_[t][k]);
         if (ends.contains(triangles_[t][k]))
           corners_[triangles_[t][k]].push_back(static_cast<int>(3 * t) + k);
       }
     }
   }
 
-  int original(int triangle, int k) const { return original_[3 * triangle + k % 3]; }
+  int original(int triangle, int k) const { return original_[triangle][k % 3]; }
 
   /// Gives every fan of triangles at a point but the first its own copy of the point.
   void split(int point) {
@@ -324,21 +314,22 @@ class CrackOpener {
   SparseCheck check_;
   std::map<Key, FaceBoundary::Segment> cracks_;
   std::map<int, std::vector<int>> corners_;
-  std::vector<int> original_;
+  std::vector<std::array<int, 3>> original_;  // triangles before the splits
   std::vector<int> copies_;
 };
 
-/// Sets the targets of all parameter points of a pole to the first one. \param target each point itself
-void collapse_poles(const FaceBoundary& boundary, std::vector<int>& target) {
-  boost::disjoint_sets_with_storage<> poles(target.size());
+/// (points) the first of the parameter points of a pole for all of these; each other point itself.
+std::vector<int> collapsed_poles(const FaceBoundary& boundary, int count) {
+  boost::disjoint_sets_with_storage<> poles(count);
   for (const auto& segment : boundary.segments)
     if (segment.degenerate) poles.union_set(segment.a, segment.b);
-  std::vector<int> first(target.size(), -1);
-  for (int& i : target) {
+  std::vector<int> first(count, -1), target;
+  for (int i = 0; i < count; ++i) {
     int& point = first[poles.find_set(i)];
     if (point < 0) point = i;
-    i = point;
+    target.push_back(point);
   }
+  return target;
 }
 
 /// Replaces the corners by their targets. Triangles with two corners in a pole vanish, and their neighbors
@@ -399,9 +390,7 @@ FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoi
   CrackOpener(boundary, triangles, context).run();
 
   const int count = boundary.size() + static_cast<int>(placed.uv.size());
-  std::vector<int> target(count);
-  for (int i = 0; i < count; ++i) target[i] = i;
-  collapse_poles(boundary, target);
+  std::vector<int> target = collapsed_poles(boundary, count);
   std::vector<char> pole(count, 0);
   for (const auto& segment : boundary.segments) {
     if (segment.degenerate) pole[target[segment.a]] = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "geometry/base/vector.hpp"
@@ -32,29 +33,25 @@ class Segments {
     int loop;  // -1: a vertex inside the face
   };
 
-  explicit Segments(std::vector<Segment> segments) : segments_(std::move(segments)) {
-    Vector3 low = segments_.front().a, high = low;
-    for (const Segment& segment : segments_) {
-      low = low.cwiseMin(segment.a);
-      high = high.cwiseMax(segment.a);
+  explicit Segments(const std::vector<Segment>& segments) {
+    Eigen::AlignedBox3d box;
+    for (const Segment& segment : segments) {
+      box.extend(segment.a);
       longest_ = std::max(longest_, (segment.b - segment.a).norm());
     }
-    (high - low).maxCoeff(&axis_);
-    std::sort(segments_.begin(), segments_.end(),
-              [this](const Segment& a, const Segment& b) { return a.a[axis_] < b.a[axis_]; });
+    box.sizes().maxCoeff(&axis_);
+    for (const Segment& segment : segments) by_place_.emplace(segment.a[axis_], segment);
   }
 
   /// Visits the segments that may lie within `reach` of p.
   template <class Visit>
   void near(const Vector3& p, double reach, Visit&& visit) const {
-    const double from = p[axis_] - reach - longest_, to = p[axis_] + reach + longest_;
-    auto it = std::lower_bound(segments_.begin(), segments_.end(), from,
-                               [this](const Segment& segment, double x) { return segment.a[axis_] < x; });
-    for (; it != segments_.end() && it->a[axis_] <= to; ++it) visit(*it);
+    const auto last = by_place_.upper_bound(p[axis_] + reach + longest_);
+    for (auto it = by_place_.lower_bound(p[axis_] - reach - longest_); it != last; ++it) visit(it->second);
   }
 
  private:
-  std::vector<Segment> segments_;
+  std::multimap<double, Segment> by_place_;  // on the axis
   double longest_ = 0;
   int axis_ = 0;
 };
@@ -98,17 +95,14 @@ std::vector<Loop> boundary_loops(const FaceBoundary& boundary) {
     ++uses[segment.a];
     end = segment.b == boundary.segments[loop.segments.front()].a ? -1 : segment.b;
   }
-  double largest = 0;
-  Loop* outermost = nullptr;
   for (Loop& loop : loops) {
     loop.regular = loop.regular &&
                    boundary.segments[loop.segments.back()].b == boundary.segments[loop.segments.front()].a;
     for (const int i : loop.segments) loop.regular = loop.regular && uses[boundary.segments[i].a] == 1;
-    const double area = area_of(loop);
-    if (area > largest || outermost == nullptr) outermost = &loop;
-    largest = std::max(largest, area);
   }
-  if (outermost != nullptr) outermost->outermost = true;
+  const auto outermost = std::max_element(
+      loops.begin(), loops.end(), [](const Loop& a, const Loop& b) { return area_of(a) < area_of(b); });
+  if (outermost != loops.end()) outermost->outermost = true;
   return loops;
 }
 

@@ -99,11 +99,8 @@ class SpaceFlipper {
     for (const int start : {side, across_[side]}) {
       int s = start;  // walk around the first corner of this side
       for (int k = 0; k < 8; ++k) {
-        if (corner(s, 2) == c || corner(s, 2) == d) {
-          // The side opposite the corner joins corner(s, 1) and corner(s, 2).
-          const int other_end = corner(s, 2) == c ? d : c;
-          if (corner(s, 1) == other_end) return true;
-        }
+        // Whether the side opposite the corner joins them.
+        if (std::minmax(corner(s, 1), corner(s, 2)) == std::minmax(c, d)) return true;
         const int previous = 3 * (s / 3) + (s % 3 + 2) % 3;
         s = across_[previous];
         if (s < 0 || s == start) break;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -23,85 +22,72 @@
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/mesh/joined_faces.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
 namespace {
 
+/// The angle by which a CAD edge turns from end to end.
+double turning_of(const CadEdge& edge) {
+  constexpr int parts_of_edge = 32;
+  const EdgeCurve curve(edge);
+  double sum = 0;
+  for (int i = 0; i < parts_of_edge; ++i) {
+    const auto at = [&](int k) {
+      return curve.derivative(edge.first + (edge.last - edge.first) * k / parts_of_edge);
+    };
+    sum += angle_between(at(i), at(i + 1));
+  }
+  return sum;
+}
+
 /// Estimates the area that faces lose because elements are flat and have straight sides, from the angles by
 /// which elements and curves turn. Uses the ratio of a circular arc to its chord, to second order.
-class FlatLoss {
- public:
-  FlatLoss(const CadShape& shape, const ShellMesh& mesh, const FaceFlags& faces)
-      : shape_(shape), mesh_(mesh), losses_(faces.size()) {
-    for (const auto& segment : mesh.segments) {
-      ++segments_of_[segment.edge];
-      edges_.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
-    }
-    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      if (!faces[FaceId::from_number(mesh.quad_faces[i])]) continue;
-      for (int k = 0; k < 4; ++k) sides_[key(i, k)].push_back(i);
-    }
-    for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
-      const FaceId face = FaceId::from_number(mesh.quad_faces[i]);
-      if (faces[face]) losses_[face] += loss_of(i);
-    }
+IdVector<FaceId, double> flat_losses(const CadShape& shape, const ShellMesh& mesh, const FaceFlags& faces) {
+  std::unordered_map<std::uint64_t, int> edges;
+  std::unordered_map<int, int> segments_of;
+  for (const auto& segment : mesh.segments) {
+    ++segments_of[segment.edge];
+    edges.emplace(side_key(segment.nodes[0], segment.nodes[1]), segment.edge);
   }
-
-  double of(FaceId face) const { return losses_[face]; }
-
- private:
-  std::uint64_t key(std::size_t quad, int k) const {
-    return side_key(mesh_.quads[quad][k], mesh_.quads[quad][(k + 1) % 4]);
+  const auto key = [&](std::size_t quad, int k) {
+    return side_key(mesh.quads[quad][k], mesh.quads[quad][(k + 1) % 4]);
+  };
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> sides;
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    if (!faces[FaceId::from_number(mesh.quad_faces[i])]) continue;
+    for (int k = 0; k < 4; ++k) sides[key(i, k)].push_back(i);
   }
-
-  double loss_of(std::size_t quad) {
+  std::unordered_map<int, double> turnings;  // along one segment of an edge, on average
+  const auto loss_of = [&](std::size_t quad) {
     double loss = 0;
     double turning[2] = {0, 0};  // along sides 0 and 2, along sides 1 and 3
-    const Vector3 normal = quad_area_vector(mesh_.points, mesh_.quads[quad]);
+    const Vector3 normal = quad_area_vector(mesh.points, mesh.quads[quad]);
     for (int k = 0; k < 4; ++k) {
-      for (const std::size_t other : sides_[key(quad, k)]) {
-        if (other == quad || mesh_.quad_faces[other] != mesh_.quad_faces[quad]) continue;
+      for (const std::size_t other : sides[key(quad, k)]) {
+        if (other == quad || mesh.quad_faces[other] != mesh.quad_faces[quad]) continue;
         double& across = turning[(k + 1) % 2];
-        across = std::max(across, angle_between(normal, quad_area_vector(mesh_.points, mesh_.quads[other])));
+        across = std::max(across, angle_between(normal, quad_area_vector(mesh.points, mesh.quads[other])));
       }
-      const auto edge = edges_.find(key(quad, k));
-      if (edge == edges_.end()) continue;
-      const double along = turning_of(edge->second);
-      turning[k % 2] = std::max(turning[k % 2], along);
-      const Vector3 side = mesh_.points[mesh_.quads[quad][(k + 1) % 4]] - mesh_.points[mesh_.quads[quad][k]];
-      loss += side.squaredNorm() * along / 12;
+      const auto edge = edges.find(key(quad, k));
+      if (edge == edges.end()) continue;
+      const auto [along, is_new] = turnings.try_emplace(edge->second);
+      if (is_new)
+        along->second =
+            turning_of(shape.edges[EdgeId::from_number(edge->second)]) / segments_of[edge->second];
+      turning[k % 2] = std::max(turning[k % 2], along->second);
+      const Vector3 side = mesh.points[mesh.quads[quad][(k + 1) % 4]] - mesh.points[mesh.quads[quad][k]];
+      loss += side.squaredNorm() * along->second / 12;
     }
     return loss + normal.norm() * (turning[0] * turning[0] + turning[1] * turning[1]) / 24;
+  };
+  IdVector<FaceId, double> losses(faces.size());
+  for (std::size_t i = 0; i < mesh.quads.size(); ++i) {
+    const FaceId face = FaceId::from_number(mesh.quad_faces[i]);
+    if (faces[face]) losses[face] += loss_of(i);
   }
-
-  /// The mean angle by which a CAD edge turns along one of its segments.
-  double turning_of(int number) {
-    auto& turning = turnings_[number];
-    if (turning) return *turning;
-    constexpr int parts_of_edge = 32;
-    const CadEdge& edge = shape_.edges[EdgeId::from_number(number)];
-    const EdgeCurve curve(edge);
-    double sum = 0;
-    for (int i = 0; i < parts_of_edge; ++i) {
-      const auto at = [&](int k) {
-        return curve.derivative(edge.first + (edge.last - edge.first) * k / parts_of_edge);
-      };
-      sum += angle_between(at(i), at(i + 1));
-    }
-    turning = sum / segments_of_[number];
-    return *turning;
-  }
-
-  const CadShape& shape_;
-  const ShellMesh& mesh_;
-  IdVector<FaceId, double> losses_;
-  std::unordered_map<std::uint64_t, int> edges_;
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> sides_;
-  std::unordered_map<int, int> segments_of_;
-  std::unordered_map<int, std::optional<double>> turnings_;
-};
+  return losses;
+}
 
 /// The area of a CAD face: of a plane one by its outline, which is a tenth of the work, else by OpenCASCADE.
 double cad_area(const CadShape& shape, FaceId id, bool is_plane) {
@@ -176,9 +162,9 @@ std::vector<AreaDifference> area_differences(const CadModel& model, const ShellM
         (planes[face] || !planes_only) && difference(first(face)) > largest * integrals[first(face)];
   std::vector<AreaDifference> result;
   if (std::none_of(differ.begin(), differ.end(), [](char d) { return d != 0; })) return result;
-  const FlatLoss loss(shape, mesh, differ);
-  IdVector<FaceId, double> losses(areas.size());
-  for (const FaceId face : areas.ids()) losses[first(face)] += loss.of(face);
+  IdVector<FaceId, double> losses = flat_losses(shape, mesh, differ);
+  for (const FaceId face : areas.ids())
+    if (first(face) != face) losses[first(face)] += losses[face];
   // What is narrower than the reach is left to the neighbors.
   IdVector<FaceId, double> shifts(areas.size());
   for (const CadEdge& edge : shape.edges)

@@ -35,32 +35,15 @@ class Assembler {
   const ShellNumbering& numbering() const { return numbering_; }
 
  private:
-  /// Calls work(face) on all threads for each face that is meshed.
-  template <class Work>
-  void for_each_face(Work&& work) const {
-    for_each_id(faces_, [&](FaceId face) {
-      if (faces_[face]) work(face);
-    });
-  }
-
   void number_boundary() {
-    IdVector<FaceId, std::vector<char>> used_by(faces_.size());
-    for_each_face([&](FaceId id) {
-      const FaceMesh& face = *faces_[id];
-      const int fixed = static_cast<int>(face.nodes.size());
-      std::vector<char>& used = used_by[id];
-      used.assign(fixed, 0);
-      SparseCheck check(context_);
-      for (const auto& quad : face.quads) {
-        check();
-        for (const int corner : quad) {
-          if (corner < fixed) used[corner] = 1;
-        }
-      }
-    });
     std::vector<char> used(nodes_.points.size(), 0);
-    for (const FaceId face : faces_.ids()) {
-      for (std::size_t i = 0; i < used_by[face].size(); ++i) used[faces_[face]->nodes[i]] |= used_by[face][i];
+    SparseCheck check(context_);
+    for (const auto& face : faces_) {
+      for (std::size_t i = 0; face && i < face->quads.size(); ++i) {
+        check();
+        for (const int corner : face->quads[i])
+          if (corner < static_cast<int>(face->nodes.size())) used[face->nodes[corner]] = 1;
+      }
     }
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!used[i]) continue;
@@ -93,7 +76,9 @@ class Assembler {
     mesh_.points.resize(points);
     mesh_.quads.resize(quads);
     mesh_.quad_faces.resize(quads);
-    for_each_face([&](FaceId face) { add_face(face); });
+    for_each_id(faces_, [&](FaceId face) {
+      if (faces_[face]) add_face(face);
+    });
   }
 
   void add_face(FaceId id) {

@@ -11,26 +11,20 @@
 
 namespace quadrille {
 
-namespace {
-
-/// How a side between two boundary nodes is used.
-struct SideUse {
-  int rising = 0, falling = 0;  ///< quads that run along it to the node of higher index, and to the other
-  int asked = 0;                ///< quads that the boundary requires
-  bool spur = false;            ///< required by a spur, where no quads are needed
-};
-
-}  // namespace
-
 std::optional<std::pair<int, int>> wrong_boundary_side(const FaceBoundary& boundary,
                                                        const std::vector<int>& nodes,
                                                        const std::vector<std::array<int, 4>>& quads) {
+  struct SideUse {
+    int rising = 0, falling = 0;  // quads that run along it to the node of higher index, and to the other
+    int asked = 0;                // quads that the boundary requires
+    bool spur = false;            // required by a spur, where no quads are needed
+  };
   // The boundary runs along spurs an even number of times: there and back. Where these lie outside the face,
   // no quad ends on them.
   std::unordered_map<std::uint64_t, int> runs;
   for (const auto& segment : boundary.segments)
     if (!segment.degenerate) ++runs[side_key(boundary.nodes[segment.a], boundary.nodes[segment.b])];
-  std::map<std::pair<int, int>, SideUse> uses;
+  std::map<std::pair<int, int>, SideUse> uses;  // sides between two boundary nodes
   for (const auto& segment : boundary.segments) {
     if (segment.degenerate) continue;
     const int a = boundary.nodes[segment.a], b = boundary.nodes[segment.b];

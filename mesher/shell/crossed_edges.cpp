@@ -36,19 +36,9 @@ struct FaceSideUse {
   int from = -1, to = -1;  ///< points of the face's mesh
 };
 
-/// Sides by the boundary nodes at their ends, in the direction of the quad.
-class DirectedSides {
- public:
-  void add(int from, int to, const FaceSideUse& use) { uses_[{from, to}].push_back(use); }
-  /// The only side between two nodes in that direction; null if there is none, or more than one.
-  const FaceSideUse* find(int from, int to) const {
-    const auto found = uses_.find({from, to});
-    return found != uses_.end() && found->second.size() == 1 ? &found->second.front() : nullptr;
-  }
-
- private:
-  std::map<std::pair<int, int>, std::vector<FaceSideUse>> uses_;
-};
+/// Sides by the boundary nodes at their ends, in the direction of the quad. Without a face where there are
+/// several.
+using DirectedSides = std::map<std::pair<int, int>, FaceSideUse>;
 
 using Sets = boost::disjoint_sets_with_storage<>;
 
@@ -177,8 +167,10 @@ class CandidateFinder {
       for (const auto& quad : mesh.quads) {
         for (int k = 0; k < 4; ++k) {
           const int from = quad[k], to = quad[(k + 1) & 3];
-          if (from < fixed && to < fixed && is_on[mesh.nodes[from]] && is_on[mesh.nodes[to]])
-            sides.add(mesh.nodes[from], mesh.nodes[to], {face, from, to});
+          if (from >= fixed || to >= fixed || !is_on[mesh.nodes[from]] || !is_on[mesh.nodes[to]]) continue;
+          const auto [use, is_new] =
+              sides.try_emplace({mesh.nodes[from], mesh.nodes[to]}, FaceSideUse{face, from, to});
+          if (!is_new) use->second.face = FaceId();
         }
       }
     }
@@ -190,8 +182,9 @@ class CandidateFinder {
     const auto& nodes = nodes_.edges[id].nodes;
     const auto& faces = shape_.edges[id].faces;
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-      for (const FaceSideUse* side : {sides.find(nodes[k], nodes[k + 1]), sides.find(nodes[k + 1], nodes[k])})
-        if (side == nullptr || (side->face != faces[0] && side->face != faces[1])) return false;
+      for (const auto side : {sides.find({nodes[k], nodes[k + 1]}), sides.find({nodes[k + 1], nodes[k]})})
+        if (side == sides.end() || (side->second.face != faces[0] && side->second.face != faces[1]))
+          return false;
     }
     return true;
   }
@@ -225,297 +218,261 @@ std::optional<std::vector<char>> boundary_points(const std::vector<std::array<in
   return fixed;
 }
 
-class Joining {
- public:
-  Joining(const CadShape& shape, const BoundaryNodes& nodes, const DirectedSides& sides, FaceMeshes& faces)
-      : shape_(shape), nodes_(nodes), sides_(sides), faces_(faces), edges_at_node_(nodes.edges_at_nodes()) {}
-
-  /// \return the composites that make a surface
-  std::vector<CompositeFace> run(std::vector<CompositeFace> result, const ExecutionContext& context) {
-    std::vector<char> is_one(result.size(), 0);
-    oneapi::tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
-      context.check();
-      std::optional<FaceMesh> mesh = join(result[i]);
-      if (!mesh) return;
-      for (const FaceId face : result[i].members) faces_[face].reset();
-      faces_[result[i].members.front()] = std::move(mesh);
-      is_one[i] = 1;
-    });
-    std::size_t next = 0;
-    std::erase_if(result, [&](const CompositeFace&) { return is_one[next++] == 0; });
-    return result;
-  }
-
- private:
-  /// Empty if the faces do not make a surface that is a manifold.
-  std::optional<FaceMesh> join(CompositeFace& composite) {
-    IdVector<FaceId, int> offset(faces_.size(), -1);
-    int count = 0;
-    for (const FaceId face : composite.members) {
-      offset[face] = count;
-      count += static_cast<int>(faces_[face]->points.size());
-    }
-    Sets sets(count);
-    for (const EdgeId id : composite.edges) {
-      const auto& nodes = nodes_.edges[id].nodes;
-      for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const FaceSideUse &one = *sides_.find(nodes[k], nodes[k + 1]),
-                          &other = *sides_.find(nodes[k + 1], nodes[k]);
-        sets.union_set(offset[one.face] + one.from, offset[other.face] + other.to);
-        sets.union_set(offset[one.face] + one.to, offset[other.face] + other.from);
-      }
-    }
-    std::vector<std::array<int, 4>> quads;
-    for (const FaceId face : composite.members)
-      for (auto quad : faces_[face]->quads) {
-        for (int& p : quad) p = static_cast<int>(sets.find_set(offset[face] + p));
-        quads.push_back(quad);
-      }
-    std::optional<std::vector<char>> fixed = boundary_points(quads, count);
-    if (!fixed) return std::nullopt;
-    // CAD vertices keep their nodes.
-    for (const FaceId face : composite.members) {
-      const std::vector<int>& nodes = faces_[face]->nodes;
-      for (std::size_t p = 0; p < nodes.size(); ++p)
-        if (edges_at_node_[nodes[p]] == 2) (*fixed)[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
-    }
-    FaceMesh mesh;
-    std::vector<int> index(count, -1);
-    for (const bool boundary : {true, false}) {
-      for (std::size_t m = 0; m < composite.members.size(); ++m) {
-        const FaceMesh& part = *faces_[composite.members[m]];
-        for (int p = 0; p < static_cast<int>(part.points.size()); ++p) {
-          const std::size_t at = sets.find_set(offset[composite.members[m]] + p);
-          if ((*fixed)[at] != boundary || index[at] >= 0) continue;
-          if (boundary && p >= static_cast<int>(part.nodes.size())) return std::nullopt;
-          index[at] = static_cast<int>(mesh.points.size());
-          mesh.points.push_back(part.points[p]);
-          mesh.pole.push_back(boundary ? part.pole[p] : 0);
-          if (boundary) mesh.nodes.push_back(part.nodes[p]);
+/// Gives a composite and its mesh a surface. \param faces with the meshes of the members
+void add_surface(const FaceMeshes& faces, CompositeFace& composite, FaceMesh& mesh) {
+  TriangleMesh triangles;
+  triangles.points = mesh.points;
+  std::vector<int> members;
+  std::vector<std::array<Vector2, 3>> uvs;
+  std::size_t at = 0;
+  for (std::size_t m = 0; m < composite.members.size(); ++m) {
+    const FaceMesh& part = *faces[composite.members[m]];
+    for (const auto& quad : part.quads) {
+      const auto& joined = mesh.quads[at++];
+      for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
+        const auto triangle = static_cast<double>(triangles.triangles.size());
+        auto& uv = uvs.emplace_back();
+        std::array<int, 3> places{};
+        for (int k = 0; k < 3; ++k) {
+          const int p = quad[corners[k]], next = quad[corners[(k + 1) % 3]];
+          places[k] = joined[corners[k]];
+          uv[k] = part.uv[part.pole[p] ? next : p];
+          if (mesh.uv[places[k]].x() < 0) mesh.uv[places[k]] = {triangle, 0};
         }
+        triangles.triangles.push_back(places);
+        members.push_back(static_cast<int>(m));
       }
     }
-    for (auto& quad : quads)
-      for (int& p : quad) p = index[p];
-    mesh.quads = std::move(quads);
-    mesh.uv.assign(mesh.points.size(), Vector2(-1, 0));
-    try {
-      add_surface(composite, mesh);
-    } catch (const Error& error) {
-      if (error.kind() != Error::Kind::failure) throw;
-      return std::nullopt;  // quads with two sides in common make triangles that are not manifold
-    }
-    return mesh;
   }
+  const auto surface = std::make_shared<const CompositeSurface>(std::move(triangles), std::move(members),
+                                                                std::move(uvs), composite.surfaces);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    Vector2 uv = mesh.uv[p];
+    surface->move(uv, mesh.points[p], mesh.normals.emplace_back());
+  }
+  mesh.surface = composite.surface = surface;
+}
 
-  void add_surface(CompositeFace& composite, FaceMesh& mesh) const {
-    TriangleMesh triangles;
-    triangles.points = mesh.points;
-    std::vector<int> members;
-    std::vector<std::array<Vector2, 3>> uvs;
-    std::size_t at = 0;
+/// Empty if the faces do not make a surface that is a manifold. \param edges_at_node see
+/// BoundaryNodes::edges_at_nodes()
+std::optional<FaceMesh> join(const BoundaryNodes& boundary_nodes, const std::vector<char>& edges_at_node,
+                             const DirectedSides& sides, const FaceMeshes& faces, CompositeFace& composite) {
+  IdVector<FaceId, int> offset(faces.size(), -1);
+  int count = 0;
+  for (const FaceId face : composite.members) {
+    offset[face] = count;
+    count += static_cast<int>(faces[face]->points.size());
+  }
+  Sets sets(count);
+  for (const EdgeId id : composite.edges) {
+    const auto& nodes = boundary_nodes.edges[id].nodes;
+    for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+      const FaceSideUse &one = sides.at({nodes[k], nodes[k + 1]}),
+                        &other = sides.at({nodes[k + 1], nodes[k]});
+      sets.union_set(offset[one.face] + one.from, offset[other.face] + other.to);
+      sets.union_set(offset[one.face] + one.to, offset[other.face] + other.from);
+    }
+  }
+  std::vector<std::array<int, 4>> quads;
+  for (const FaceId face : composite.members)
+    for (auto quad : faces[face]->quads) {
+      for (int& p : quad) p = static_cast<int>(sets.find_set(offset[face] + p));
+      quads.push_back(quad);
+    }
+  std::optional<std::vector<char>> fixed = boundary_points(quads, count);
+  if (!fixed) return std::nullopt;
+  // CAD vertices keep their nodes.
+  for (const FaceId face : composite.members) {
+    const std::vector<int>& nodes = faces[face]->nodes;
+    for (std::size_t p = 0; p < nodes.size(); ++p)
+      if (edges_at_node[nodes[p]] == 2) (*fixed)[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
+  }
+  FaceMesh mesh;
+  std::vector<int> index(count, -1);
+  for (const bool boundary : {true, false}) {
     for (std::size_t m = 0; m < composite.members.size(); ++m) {
-      const FaceMesh& part = *faces_[composite.members[m]];
-      for (const auto& quad : part.quads) {
-        const auto& joined = mesh.quads[at++];
-        for (const auto& corners : {std::array{0, 1, 2}, std::array{0, 2, 3}}) {
-          const auto triangle = static_cast<double>(triangles.triangles.size());
-          auto& uv = uvs.emplace_back();
-          std::array<int, 3> places{};
-          for (int k = 0; k < 3; ++k) {
-            const int p = quad[corners[k]], next = quad[corners[(k + 1) % 3]];
-            places[k] = joined[corners[k]];
-            uv[k] = part.uv[part.pole[p] ? next : p];
-            if (mesh.uv[places[k]].x() < 0) mesh.uv[places[k]] = {triangle, 0};
-          }
-          triangles.triangles.push_back(places);
-          members.push_back(static_cast<int>(m));
-        }
+      const FaceMesh& part = *faces[composite.members[m]];
+      for (int p = 0; p < static_cast<int>(part.points.size()); ++p) {
+        const std::size_t at = sets.find_set(offset[composite.members[m]] + p);
+        if ((*fixed)[at] != boundary || index[at] >= 0) continue;
+        if (boundary && p >= static_cast<int>(part.nodes.size())) return std::nullopt;
+        index[at] = static_cast<int>(mesh.points.size());
+        mesh.points.push_back(part.points[p]);
+        mesh.pole.push_back(boundary ? part.pole[p] : 0);
+        if (boundary) mesh.nodes.push_back(part.nodes[p]);
       }
     }
-    composite.surface = std::make_shared<const CompositeSurface>(std::move(triangles), std::move(members),
-                                                                 std::move(uvs), composite.surfaces);
-    mesh.surface = composite.surface;
-    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+  }
+  for (auto& quad : quads)
+    for (int& p : quad) p = index[p];
+  mesh.quads = std::move(quads);
+  mesh.uv.assign(mesh.points.size(), Vector2(-1, 0));
+  try {
+    add_surface(faces, composite, mesh);
+  } catch (const Error& error) {
+    if (error.kind() != Error::Kind::failure) throw;
+    return std::nullopt;  // quads with two sides in common make triangles that are not manifold
+  }
+  return mesh;
+}
+
+using PointKey = std::array<double, 3>;
+PointKey key_of(const Vector3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+/// The mesh of a composite, and which of its quads belong to which face.
+struct Division {
+  FaceMesh mesh;
+  std::vector<Vector2> centers;                        // of the quads
+  std::vector<std::vector<std::size_t>> quads_of;      // (members)
+  std::vector<char> is_shared;                         // (points) 1 = quads of several members use it
+  std::vector<int> node;                               // (points) see number_nodes()
+  std::unordered_map<std::uint64_t, Vector3> middles;  // of all sides between boundary nodes
+};
+
+void divide(const CompositeFace& composite, Division& division) {
+  const FaceMesh& mesh = division.mesh;
+  division.quads_of.resize(composite.members.size());
+  division.is_shared.assign(mesh.points.size(), 0);
+  std::vector<int> member(mesh.points.size(), -1);
+  for (const auto& quad : mesh.quads) {
+    Vector3 center = Vector3::Zero();
+    for (const int p : quad) center += 0.25 * mesh.points[p];
+    Vector2& uv = division.centers.emplace_back(mesh.uv[quad[0]]);
+    composite.surface->approach(uv, center);
+    const int m = composite.surface->member(uv);
+    division.quads_of[m].push_back(division.centers.size() - 1);
+    for (const int p : quad) {
+      division.is_shared[p] |= member[p] >= 0 && member[p] != m;
+      member[p] = m;
+    }
+  }
+}
+
+/// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
+/// where a node of an edge was; -1 for the others.
+void number_nodes(const CompositeFace& composite, BoundaryNodes& nodes, Division& division) {
+  const FaceMesh& mesh = division.mesh;
+  std::map<PointKey, int> known;
+  for (const EdgeId id : composite.edges)
+    for (const int node : nodes.edges[id].nodes) known.emplace(key_of(nodes.points[node]), node);
+  std::vector<int>& result = division.node;
+  result = mesh.nodes;
+  result.reserve(mesh.points.size());
+  for (int p = static_cast<int>(mesh.nodes.size()); p < static_cast<int>(mesh.points.size()); ++p) {
+    const auto found = known.find(key_of(mesh.points[p]));
+    result.push_back(found != known.end() ? found->second : -1);
+    if (result.back() >= 0 || !division.is_shared[p]) continue;
+    result.back() = static_cast<int>(nodes.points.size());
+    nodes.points.push_back(mesh.points[p]);
+  }
+}
+
+void find_middles(const CompositeFace& composite, Division& division) {
+  const FaceMesh& mesh = division.mesh;
+  for (const auto& quad : mesh.quads) {
+    for (int k = 0; k < 4; ++k) {
+      const int p = quad[k], next = quad[(k + 1) & 3], a = division.node[p], b = division.node[next];
+      if (a < 0 || b < 0) continue;
       Vector2 uv = mesh.uv[p];
-      composite.surface->move(uv, mesh.points[p], mesh.normals.emplace_back());
+      division.middles.try_emplace(
+          side_key(a, b), composite.surface->nearest(uv, 0.5 * (mesh.points[p] + mesh.points[next])));
     }
   }
+}
 
-  const CadShape& shape_;
-  const BoundaryNodes& nodes_;
-  const DirectedSides& sides_;
-  FaceMeshes& faces_;
-  const std::vector<char> edges_at_node_;  // (nodes) see BoundaryNodes::edges_at_nodes()
-};
-
-class Splitting {
- public:
-  Splitting(const CadShape& shape, BoundaryNodes& nodes, FaceMeshes& faces)
-      : shape_(shape), nodes_(nodes), faces_(faces) {}
-
-  /// Divides on all threads. New boundary nodes are numbered in between, in the order of the composites.
-  void run(const std::vector<CompositeFace>& composites, const ExecutionContext& context) {
-    std::vector<Division> divisions(composites.size());
-    const auto for_each = [&](auto&& work) {
-      oneapi::tbb::parallel_for(std::size_t{0}, composites.size(), [&](std::size_t i) {
-        context.check();
-        work(composites[i], divisions[i]);
-      });
+void give_back(const CompositeFace& composite, const Division& division, FaceMeshes& faces) {
+  const FaceMesh& mesh = division.mesh;
+  const std::vector<int>& node = division.node;
+  const int fixed = static_cast<int>(mesh.nodes.size());
+  std::vector<int> index(mesh.points.size(), -1);  // of points in the face at hand
+  for (std::size_t m = 0; m < composite.members.size(); ++m) {
+    FaceMesh part;
+    part.surface = composite.own_surfaces[m];
+    part.q_min = 1;
+    const auto add = [&](int p, const Vector2& near) {
+      index[p] = static_cast<int>(part.points.size());
+      part.points.push_back(mesh.points[p]);
+      part.pole.push_back(p < fixed ? mesh.pole[p] : 0);
+      if (node[p] >= 0) part.nodes.push_back(node[p]);
+      const bool is_own = composite.surface->member(mesh.uv[p]) == static_cast<int>(m);
+      Vector2& uv =
+          part.uv.emplace_back(composite.surface->member_uv(is_own ? mesh.uv[p] : near, mesh.points[p]));
+      composite.surfaces[m]->nearest(uv, mesh.points[p]);
     };
-    for_each([&](const CompositeFace& composite, Division& division) {
-      division.mesh = std::move(*faces_[composite.members.front()]);
-      divide(composite, division);
-    });
-    for (std::size_t i = 0; i < composites.size(); ++i) number_nodes(composites[i], divisions[i]);
-    for_each([&](const CompositeFace& composite, Division& division) {
-      find_middles(composite, division);
-      give_back(composite, division);
-    });
-    for (std::size_t i = 0; i < composites.size(); ++i) {
-      find_suppressed(composites[i], divisions[i]);
-      nodes_.middles.insert(divisions[i].middles.begin(), divisions[i].middles.end());
-    }
-  }
-
-  std::vector<EdgeId> suppressed;
-
- private:
-  using Place = std::array<double, 3>;
-  static Place place_of(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
-
-  /// The mesh of a composite, and which of its quads belong to which face.
-  struct Division {
-    FaceMesh mesh;
-    std::vector<Vector2> centers;                        // of the quads
-    std::vector<std::vector<std::size_t>> quads_of;      // (members)
-    std::vector<char> is_shared;                         // (points) 1 = quads of several members use it
-    std::vector<int> node;                               // (points) see number_nodes()
-    std::unordered_map<std::uint64_t, Vector3> middles;  // of all sides between boundary nodes
-  };
-
-  static void divide(const CompositeFace& composite, Division& division) {
-    const FaceMesh& mesh = division.mesh;
-    division.quads_of.resize(composite.members.size());
-    division.is_shared.assign(mesh.points.size(), 0);
-    std::vector<int> member(mesh.points.size(), -1);
-    for (const auto& quad : mesh.quads) {
-      Vector3 center = Vector3::Zero();
-      for (const int p : quad) center += 0.25 * mesh.points[p];
-      Vector2& uv = division.centers.emplace_back(mesh.uv[quad[0]]);
-      composite.surface->approach(uv, center);
-      const int m = composite.surface->member(uv);
-      division.quads_of[m].push_back(division.centers.size() - 1);
-      for (const int p : quad) {
-        division.is_shared[p] |= member[p] >= 0 && member[p] != m;
-        member[p] = m;
-      }
-    }
-  }
-
-  /// (points) the boundary node of each point that is on the boundary, that several faces use, or that lies
-  /// where a node of an edge was; -1 for the others.
-  void number_nodes(const CompositeFace& composite, Division& division) {
-    const FaceMesh& mesh = division.mesh;
-    std::map<Place, int> known;
-    for (const EdgeId id : composite.edges)
-      for (const int node : nodes_.edges[id].nodes) known.emplace(place_of(nodes_.points[node]), node);
-    std::vector<int>& result = division.node;
-    result = mesh.nodes;
-    result.reserve(mesh.points.size());
-    for (int p = static_cast<int>(mesh.nodes.size()); p < static_cast<int>(mesh.points.size()); ++p) {
-      const auto found = known.find(place_of(mesh.points[p]));
-      result.push_back(found != known.end() ? found->second : -1);
-      if (result.back() >= 0 || !division.is_shared[p]) continue;
-      result.back() = static_cast<int>(nodes_.points.size());
-      nodes_.points.push_back(mesh.points[p]);
-    }
-  }
-
-  static void find_middles(const CompositeFace& composite, Division& division) {
-    const FaceMesh& mesh = division.mesh;
-    for (const auto& quad : mesh.quads) {
-      for (int k = 0; k < 4; ++k) {
-        const int p = quad[k], next = quad[(k + 1) & 3], a = division.node[p], b = division.node[next];
-        if (a < 0 || b < 0) continue;
-        Vector2 uv = mesh.uv[p];
-        division.middles.try_emplace(
-            side_key(a, b), composite.surface->nearest(uv, 0.5 * (mesh.points[p] + mesh.points[next])));
-      }
-    }
-  }
-
-  void give_back(const CompositeFace& composite, const Division& division) {
-    const FaceMesh& mesh = division.mesh;
-    const std::vector<int>& node = division.node;
-    const int fixed = static_cast<int>(mesh.nodes.size());
-    std::vector<int> index(mesh.points.size(), -1);  // of points in the face at hand
-    for (std::size_t m = 0; m < composite.members.size(); ++m) {
-      FaceMesh part;
-      part.surface = composite.own_surfaces[m];
-      part.q_min = 1;
-      const auto add = [&](int p, const Vector2& near) {
-        index[p] = static_cast<int>(part.points.size());
-        part.points.push_back(mesh.points[p]);
-        part.pole.push_back(p < fixed ? mesh.pole[p] : 0);
-        if (node[p] >= 0) part.nodes.push_back(node[p]);
-        const bool is_own = composite.surface->member(mesh.uv[p]) == static_cast<int>(m);
-        Vector2& uv =
-            part.uv.emplace_back(composite.surface->member_uv(is_own ? mesh.uv[p] : near, mesh.points[p]));
-        composite.surfaces[m]->nearest(uv, mesh.points[p]);
-      };
-      for (const bool boundary : {true, false}) {
-        for (const std::size_t q : division.quads_of[m]) {
-          for (const int p : mesh.quads[q])
-            if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
-        }
-      }
+    for (const bool boundary : {true, false}) {
       for (const std::size_t q : division.quads_of[m]) {
-        auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
-        for (int* p : {&a, &b, &c, &d}) *p = index[*p];
-        part.q_min =
-            std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
+        for (const int p : mesh.quads[q])
+          if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
       }
-      for (const std::size_t q : division.quads_of[m])
-        for (const int p : mesh.quads[q]) index[p] = -1;
-      faces_[composite.members[m]] = std::move(part);
     }
-  }
-
-  /// Takes their nodes from the edges that are no longer chains of sides.
-  void find_suppressed(const CompositeFace& composite, const Division& division) {
-    for (const EdgeId id : composite.edges) {
-      BoundaryNodes::Edge& edge = nodes_.edges[id];
-      bool is_whole = true;
-      for (int k = 0; is_whole && k < edge.segments(); ++k)
-        is_whole = division.middles.contains(side_key(edge.nodes[k], edge.nodes[k + 1]));
-      if (is_whole) continue;
-      edge.nodes.clear();
-      edge.parameters.clear();
-      suppressed.push_back(id);
+    for (const std::size_t q : division.quads_of[m]) {
+      auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
+      for (int* p : {&a, &b, &c, &d}) *p = index[*p];
+      part.q_min =
+          std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
     }
+    for (const std::size_t q : division.quads_of[m])
+      for (const int p : mesh.quads[q]) index[p] = -1;
+    faces[composite.members[m]] = std::move(part);
   }
-
-  const CadShape& shape_;
-  BoundaryNodes& nodes_;
-  FaceMeshes& faces_;
-};
+}
 
 }  // namespace
 
 std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFlags& kept,
                                              const BoundaryNodes& nodes, FaceMeshes& faces,
                                              const ExecutionContext& context) {
-  Candidates candidates = CandidateFinder(shape, kept, nodes, faces, context).run();
-  return Joining(shape, nodes, candidates.sides, faces).run(std::move(candidates.composites), context);
+  Candidates found = CandidateFinder(shape, kept, nodes, faces, context).run();
+  const std::vector<char> edges_at_node = nodes.edges_at_nodes();
+  oneapi::tbb::parallel_for(std::size_t{0}, found.composites.size(), [&](std::size_t i) {
+    context.check();
+    CompositeFace& composite = found.composites[i];
+    std::optional<FaceMesh> mesh = join(nodes, edges_at_node, found.sides, faces, composite);
+    if (!mesh) return;
+    for (const FaceId face : composite.members) faces[face].reset();
+    faces[composite.members.front()] = std::move(mesh);
+  });
+  std::erase_if(found.composites, [](const CompositeFace& composite) { return !composite.surface; });
+  return std::move(found.composites);
 }
 
-std::vector<EdgeId> split_faces(const CadShape& shape, const std::vector<CompositeFace>& composites,
-                                BoundaryNodes& nodes, FaceMeshes& faces, const ExecutionContext& context) {
-  Splitting splitting(shape, nodes, faces);
-  splitting.run(composites, context);
-  std::sort(splitting.suppressed.begin(), splitting.suppressed.end());
-  return std::move(splitting.suppressed);
+std::vector<EdgeId> split_faces(const std::vector<CompositeFace>& composites, BoundaryNodes& nodes,
+                                FaceMeshes& faces, const ExecutionContext& context) {
+  std::vector<Division> divisions(composites.size());
+  const auto for_each = [&](auto&& work) {
+    oneapi::tbb::parallel_for(std::size_t{0}, composites.size(), [&](std::size_t i) {
+      context.check();
+      work(composites[i], divisions[i]);
+    });
+  };
+  for_each([&](const CompositeFace& composite, Division& division) {
+    division.mesh = std::move(*faces[composite.members.front()]);
+    divide(composite, division);
+  });
+  // New boundary nodes are numbered in the order of the composites.
+  for (std::size_t i = 0; i < composites.size(); ++i) number_nodes(composites[i], nodes, divisions[i]);
+  for_each([&](const CompositeFace& composite, Division& division) {
+    find_middles(composite, division);
+    give_back(composite, division, faces);
+  });
+  std::vector<EdgeId> suppressed;
+  for (std::size_t i = 0; i < composites.size(); ++i) {
+    for (const EdgeId id : composites[i].edges) {
+      BoundaryNodes::Edge& edge = nodes.edges[id];
+      bool is_whole = true;
+      for (int k = 0; is_whole && k < edge.segments(); ++k)
+        is_whole = divisions[i].middles.contains(side_key(edge.nodes[k], edge.nodes[k + 1]));
+      if (is_whole) continue;
+      edge.nodes.clear();
+      edge.parameters.clear();
+      suppressed.push_back(id);
+    }
+    nodes.middles.insert(divisions[i].middles.begin(), divisions[i].middles.end());
+  }
+  std::sort(suppressed.begin(), suppressed.end());
+  return suppressed;
 }
 
 }  // namespace quadrille

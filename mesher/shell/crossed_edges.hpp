@@ -34,7 +34,7 @@ std::vector<CompositeFace> join_smooth_faces(const CadShape& shape, const EdgeFl
 /// Gives each face its mesh again. A quad belongs to the face that its center lies on. Nodes that quads of
 /// several faces share become boundary nodes. An edge along which the mesh has no chain of sides any more
 /// loses its nodes. \return these edges, ascending
-std::vector<EdgeId> split_faces(const CadShape& shape, const std::vector<CompositeFace>& composites,
-                                BoundaryNodes& nodes, FaceMeshes& faces, const ExecutionContext& context);
+std::vector<EdgeId> split_faces(const std::vector<CompositeFace>& composites, BoundaryNodes& nodes,
+                                FaceMeshes& faces, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -192,9 +192,8 @@ class FaceMesher {
 
   FaceTriangulation triangulate(const FaceBoundary& boundary, const TrimmedDomain& domain) {
     const StageTimer timer(context_, Stage::triangulate);
-    PlacementOptions placement;
-    placement.scale = static_cast<double>(boundary.stride) / recipe_.fineness;
-    placement.refusal = recipe_.refusal;
+    const PlacementOptions placement{static_cast<double>(boundary.stride) / recipe_.fineness,
+                                     recipe_.refusal};
     PlacedPoints placed = place_points(boundary, surface_, domain, size_at_, placement, context_);
     context_.check();
     return triangulate_face(face_, boundary, std::move(placed), surface_, context_);

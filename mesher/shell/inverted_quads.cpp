@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <set>
 #include <string>
 
@@ -19,17 +18,11 @@ namespace {
 
 /// The node at the corner of a quad that is inverted most. \param outward a normal of the quad
 int worst_corner(const std::vector<Vector3>& p, const std::array<int, 4>& quad, const Vector3& outward) {
-  int worst = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < 4; ++k) {
+  const auto area = [&](int k) {
     const Vector3 &at = p[quad[k]], &next = p[quad[(k + 1) % 4]], &before = p[quad[(k + 3) % 4]];
-    const double area = (next - at).cross(before - at).dot(outward);
-    if (area < least) {
-      least = area;
-      worst = k;
-    }
-  }
-  return quad[worst];
+    return (next - at).cross(before - at).dot(outward);
+  };
+  return quad[std::min({0, 1, 2, 3}, [&](int a, int b) { return area(a) < area(b); })];
 }
 
 /// A text that says where a boundary node of the face lies.

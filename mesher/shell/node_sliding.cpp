@@ -7,7 +7,6 @@
 #include <Standard_Failure.hxx>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "geometry/cad/parallel_ids.hpp"
@@ -601,7 +600,7 @@ std::vector<EdgeId> slide_nodes(const CadShape& shape, BoundaryNodes& nodes, Fac
     if (mended || !composites.empty()) sliding.run(options.sliding_sweeps);
     sliding.finish();
   }
-  return split_faces(shape, composites, nodes, faces, context);
+  return split_faces(composites, nodes, faces, context);
 }
 
 }  // namespace quadrille

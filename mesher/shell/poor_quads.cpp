@@ -43,7 +43,7 @@ class Finder {
     index_segments();
     corners_ = corners_by_node(mesh_.points.size(), mesh_.quads);
     measure_angles();
-    for (const PoorQuad& poor : poor_) add(poor);
+    for (const Side shortest : poor_) add(element_of(shortest), index_of(shortest));
     std::vector<ShellMesh::PoorQuads> result;
     for (auto& [place, found] : found_) {
       found.why = reason(place, found);
@@ -55,9 +55,6 @@ class Finder {
   }
 
  private:
-  struct PoorQuad {
-    int quad, side;  // its shortest
-  };
   using Reason = ShellMesh::PoorQuads::Cause;
   /// What forces quads: an edge, or a face and why; of a corner the node.
   using Place = std::tuple<int, int, Reason, int>;  // dimension, number
@@ -81,7 +78,7 @@ class Finder {
                               });
     for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
       if (shortest[quad] < 0) continue;
-      poor_.push_back({quad, shortest[quad]});
+      poor_.push_back(make_side(quad, shortest[quad]));
       faces_.try_emplace(mesh_.quad_faces[quad]);
     }
   }
@@ -140,22 +137,21 @@ class Finder {
     return {-1, -1};
   }
 
-  void add(const PoorQuad& poor) {
-    const double length = this->length(poor.quad, poor.side);
-    const auto& corners = mesh_.quads[poor.quad];
-    const int face = mesh_.quad_faces[poor.quad];
-    for (const int k : {poor.side, (poor.side + 2) & 3}) {
-      const auto edge = edge_of_.find(side_key(corners[k], corners[(k + 1) & 3]));
+  void add(int quad, int shortest) {
+    const double length = this->length(quad, shortest);
+    const int face = mesh_.quad_faces[quad];
+    for (const int k : {shortest, shortest + 2}) {
+      const auto edge = edge_of_.find(side(quad, k));
       if (edge != edge_of_.end() && length_of_[edge->second] < mesh_.size_min)
         return count({1, edge->second, Reason::short_edge, 0}, length);
     }
     const auto& angles = faces_[face];
-    for (const int node : corners) {
+    for (const int node : mesh_.quads[quad]) {
       const auto angle = angles.find(node);
       if (angle != angles.end() && angle->second < sharp)
         return count({2, face, Reason::corner, node}, length);
     }
-    const auto row = row_of(poor.quad, poor.side);
+    const auto row = row_of(quad, shortest);
     if (!row || row->width >= mesh_.size_min) return count({2, face, Reason::none, 0}, length);
     count({2, face, Reason::narrow, 0}, length);
     const auto narrowest = narrowest_.try_emplace(face, *row).first;
@@ -222,7 +218,7 @@ class Finder {
   const CadShape& shape_;
   const ShellMesh& mesh_;
   const CriteriaLimits limits_;
-  std::vector<PoorQuad> poor_;
+  std::vector<Side> poor_;  // the shortest sides of poor quads
   std::unordered_map<int, std::unordered_map<int, double>>
       faces_;                                       // with poor quads: their angles at nodes of vertices
   std::unordered_map<std::uint64_t, int> edge_of_;  // by side_key()

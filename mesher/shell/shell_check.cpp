@@ -3,7 +3,6 @@
 #include "mesher/shell/shell_check.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -130,18 +129,11 @@ class ShellCheck {
     for (const auto& [line, faces, is_crossed] : lines()) {
       if (!has_nodes_of_edges && !is_crossed) continue;
       if (quads == 1 ? faces != 1 : faces == 0) continue;
-      const bool is_along = distance_to(line, a) <= reach_ && distance_to(line, b) <= reach_ &&
-                            distance_to(line, 0.5 * (a + b)) <= reach_ + sag * length;
+      const bool is_along = distance_to_line(a, line) <= reach_ && distance_to_line(b, line) <= reach_ &&
+                            distance_to_line(0.5 * (a + b), line) <= reach_ + sag * length;
       if (is_along) along += faces;
     }
     return along >= static_cast<int>(quads);
-  }
-
-  static double distance_to(const std::vector<Vector3>& line, const Vector3& point) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < line.size(); ++i)
-      least = std::min(least, distance_to_segment(point, line[i], line[i + 1]));
-    return least;
   }
 
   struct Line {
