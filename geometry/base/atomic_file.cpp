@@ -24,17 +24,11 @@ namespace {
 /// Names of the temporary files being written. Signal handlers read them: no locks, no allocation.
 std::array<std::atomic<const char*>, 8> unfinished{};
 
-void note_unfinished(const char* name) {
+/// Puts a name in the place of another; null = no name.
+void replace_unfinished(const char* old_name, const char* name) {
   for (auto& entry : unfinished) {
-    const char* none = nullptr;
-    if (entry.compare_exchange_strong(none, name)) return;
-  }
-}
-
-void forget_unfinished(const char* name) {
-  for (auto& entry : unfinished) {
-    const char* expected = name;
-    if (entry.compare_exchange_strong(expected, nullptr)) return;
+    const char* expected = old_name;
+    if (entry.compare_exchange_strong(expected, name)) return;
   }
 }
 
@@ -89,7 +83,7 @@ AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (folder_descriptor_ >= 0) ::close(folder_descriptor_);
   if (temporary_.empty()) return;
-  forget_unfinished(temporary_.c_str());
+  replace_unfinished(temporary_.c_str(), nullptr);
   ::unlink(temporary_.c_str());
 }
 
@@ -114,7 +108,7 @@ void AtomicFile::with_random_name(Attempt&& attempt) {
                                                        std::uint32_t{random()});
     if (attempt(name.c_str())) {
       temporary_ = std::move(name);
-      note_unfinished(temporary_.c_str());
+      replace_unfinished(nullptr, temporary_.c_str());
       return;
     }
     if (errno != EEXIST) break;
@@ -158,7 +152,7 @@ void AtomicFile::put_in_place() {
   }
   close();
   if (std::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
-  forget_unfinished(temporary_.c_str());
+  replace_unfinished(temporary_.c_str(), nullptr);
   temporary_.clear();
 }
 

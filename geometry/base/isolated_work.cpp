@@ -31,21 +31,8 @@ namespace quadrille {
 
 namespace {
 
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  operator int() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-
- private:
-  int number_;
-};
+/// An end of a pipe, which it closes.
+using PipeEnd = __gnu_cxx::stdio_filebuf<char>;
 
 Error no_process(const std::string& name) {
   return failure(name,
@@ -93,16 +80,15 @@ std::string sentence_about(const std::string& subject, const std::exception& pro
   return subject + ": " + sentence_of(problem);
 }
 
-Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work, std::ostream& out) {
-  try {
-    work(out);
-    return result;
-  } catch (const Error& error) {
-    out << error.what();
-    return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
-  } catch (const std::exception& problem) {
-    out << sentence_about(subject, problem);
-  }
+Answer answer(const std::string& subject, const std::function<void(std::ostream&)>& work,
+              std::ostream& out) try {
+  work(out);
+  return result;
+} catch (const Error& error) {
+  out << error.what();
+  return error.kind() == Error::Kind::usage ? usage_sentence : failure_sentence;
+} catch (const std::exception& problem) {
+  out << sentence_about(subject, problem);
   return failure_sentence;
 }
 
@@ -161,10 +147,9 @@ void limit_memory(std::size_t bytes) {
 
 /// No exception leaves it: it would go on as if the child were the parent.
 [[noreturn]] void work_as_child(const IsolatedWork& options, const std::function<void(std::ostream&)>& work,
-                                int pipe) noexcept {
+                                PipeEnd& pipe) noexcept {
   if (options.memory > 0) limit_memory(options.memory);
-  __gnu_cxx::stdio_filebuf<char> buffer(pipe, std::ios::out | std::ios::binary);
-  std::ostream out(&buffer);
+  std::ostream out(&pipe);
   const Answer given = answer(options.subject, work, out);
   out << end_of_answer << static_cast<char>(given);
   out.flush();
@@ -204,18 +189,17 @@ std::string run_isolated(const IsolatedWork& options, const std::function<void(s
   if (options.context != nullptr) options.context->check();
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw no_process(options.subject);
-  Descriptor heard(ends[0]);
-  Descriptor told(ends[1]);
+  PipeEnd heard(ends[0], std::ios::in | std::ios::binary), told(ends[1], std::ios::out | std::ios::binary);
   const pid_t parent = ::getpid(), id = ::fork();
   if (id < 0) throw no_process(options.subject);
   if (id == 0) {
-    become_worker(parent, told);
+    become_worker(parent, told.fd());
     heard.close();  // otherwise a write to a full pipe would wait for this process itself to read
     work_as_child(options, work, told);
   }
   Child child(id);
   told.close();
-  return result_of(options, listen(child, heard, options));
+  return result_of(options, listen(child, heard.fd(), options));
 }
 
 }  // namespace quadrille

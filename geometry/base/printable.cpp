@@ -12,20 +12,6 @@ namespace quadrille {
 
 namespace {
 
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t bytes = 0;  ///< 0 = not UTF-8
-};
-
-/// The first character of a text that is not empty.
-Character first_character(std::string_view text) {
-  using boost::locale::utf::utf_traits;
-  const char* next = text.data();
-  const std::uint32_t code = utf_traits<char>::decode(next, next + text.size());
-  if (!boost::locale::utf::is_valid_codepoint(code)) return {};
-  return {code, static_cast<std::size_t>(next - text.data())};
-}
-
 bool is_obeyed(std::uint32_t code) {
   const auto between = [&](std::uint32_t low, std::uint32_t high) { return code >= low && code <= high; };
   const bool controls = code < ' ' || between(0x7f, 0x9f), breaks = between(0x2028, 0x2029);
@@ -37,19 +23,22 @@ bool is_obeyed(std::uint32_t code) {
 }  // namespace
 
 std::string printable(std::string_view text, std::string_view stand_in, char kept) {
+  namespace utf = boost::locale::utf;
   std::string result;
   while (!text.empty()) {
-    const Character character = first_character(text);
-    const std::size_t bytes = character.bytes == 0 ? 1 : character.bytes;
+    const char* next = text.data();
+    const std::uint32_t code = utf::utf_traits<char>::decode(next, next + text.size());
+    const bool is_utf8 = utf::is_valid_codepoint(code);
+    const std::size_t bytes = is_utf8 ? static_cast<std::size_t>(next - text.data()) : 1;
     const bool stays = kept != 0 && text.front() == kept;
-    if (stays || (character.bytes > 0 && !is_obeyed(character.code)))
+    if (stays || (is_utf8 && !is_obeyed(code)))
       result += text.substr(0, bytes);
     else if (!stand_in.empty())
       result += stand_in;
     else if (bytes == 1)
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text.front()));
     else
-      result += fmt::format("\\u{:04x}", character.code);
+      result += fmt::format("\\u{:04x}", code);
     text.remove_prefix(bytes);
   }
   return result;

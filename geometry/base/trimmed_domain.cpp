@@ -11,13 +11,10 @@ namespace quadrille {
 
 TrimmedDomain::TrimmedDomain(std::vector<Segment> segments) : segments_(std::move(segments)) {
   if (segments_.empty()) return;
-  low_ = high_ = segments_.front().a;
-  for (const Segment& s : segments_) {
-    low_ = low_.cwiseMin(s.a).cwiseMin(s.b);
-    high_ = high_.cwiseMax(s.a).cwiseMax(s.b);
-  }
+  box_.setEmpty();
+  for (const Segment& s : segments_) box_.extend(s.a).extend(s.b);
   slab_count_ = static_cast<int>(std::clamp<std::size_t>(segments_.size(), 1, 1 << 20));
-  const double height = high_.y() - low_.y();
+  const double height = box_.sizes().y();
   slab_scale_ = height > 0 ? slab_count_ / height : 0;
   members_ = Rows<>(slab_count_, [&](auto&& add) {
     for (std::size_t k = 0; k < segments_.size(); ++k) {
@@ -28,12 +25,11 @@ TrimmedDomain::TrimmedDomain(std::vector<Segment> segments) : segments_(std::mov
 }
 
 int TrimmedDomain::slab(double y) const {
-  return cell_at((y - low_.y()) * slab_scale_, slab_count_);
+  return cell_at((y - low().y()) * slab_scale_, slab_count_);
 }
 
 bool TrimmedDomain::inside(const Vector2& p) const {
-  if (segments_.empty() || (p.array() < low_.array()).any() || (p.array() > high_.array()).any())
-    return false;
+  if (segments_.empty() || !box_.contains(p)) return false;
   bool odd = false;
   for (const int member : members_[slab(p.y())]) {
     const Segment& s = segments_[member];

@@ -20,17 +20,17 @@ class TrimmedDomain {
   TrimmedDomain() = default;
   explicit TrimmedDomain(std::vector<Segment> segments);  ///< segments: the sides of the outline
 
-  bool inside(const Vector2& p) const;              ///< whether the point lies in the domain
-  bool empty() const { return segments_.empty(); }  ///< whether it has no outline
-  const Vector2& low() const { return low_; }       ///< lowest corner of the bounding box
-  const Vector2& high() const { return high_; }     ///< highest corner of the bounding box
+  bool inside(const Vector2& p) const;                ///< whether the point lies in the domain
+  bool empty() const { return segments_.empty(); }    ///< whether it has no outline
+  const Vector2& low() const { return box_.min(); }   ///< lowest corner of the bounding box
+  const Vector2& high() const { return box_.max(); }  ///< highest corner of the bounding box
 
  private:
   int slab(double y) const;
 
   std::vector<Segment> segments_;
   Rows<> members_;  // the segments of each slab
-  Vector2 low_{0, 0}, high_{0, 0};
+  Eigen::AlignedBox2d box_{Vector2(0, 0)};
   double slab_scale_ = 0;
   int slab_count_ = 0;
 };
