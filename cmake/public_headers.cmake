@@ -1,6 +1,6 @@
 # The headers of the library: what mesher/quadrille.hpp and mesher/settings.hpp include, and nothing else.
 set(PUBLIC_HEADERS
-  geometry/base/api.hpp geometry/base/error.hpp geometry/base/execution_context.hpp
+  geometry/base/api.hpp geometry/base/error.hpp geometry/base/execution_context.hpp geometry/base/number_rule.hpp
   geometry/base/vector.hpp geometry/cad/cad_model.hpp geometry/cad/ids.hpp geometry/midsurface/midsurface.hpp
   geometry/sizing/element_count.hpp geometry/sizing/sizing_field.hpp geometry/sizing/sizing_options.hpp
   mesher/estimate.hpp mesher/io/io.hpp mesher/io/limits_reader.hpp mesher/io/midsurface_writer.hpp

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -12,7 +12,6 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/error.hpp"
-#include "geometry/base/number_rule.hpp"
 #include "geometry/cad/cad_model.hpp"
 #include "mesher/mesh/entity_name.hpp"
 #include "mesher/size_entries.hpp"
@@ -25,7 +24,6 @@ using Use = Setting::Use;
 using Names = std::vector<std::string>;
 using Sizes = std::map<std::string, double>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The words for the values of an enumeration.
 template <class Word>
 constexpr std::nullptr_t words_for = nullptr;
@@ -56,7 +54,9 @@ Error refused(const Setting& setting, const std::string& rule) {
 }
 
 NumberRule rule_of(const Setting& setting) {
-  return {setting.low, setting.high, setting.above_low, setting.kind() == "count"};
+  NumberRule rule = setting.range;
+  rule.whole = setting.kind() == "count";
+  return rule;
 }
 
 double checked(const Setting& setting, double value) {
@@ -143,16 +143,6 @@ Sizes sizes_of(const SizingOptions& sizing) {
   return sizes;
 }
 
-/// Runs `work` and turns std::invalid_argument into an Error that names the setting.
-template <class Work>
-void in_name_of(const Setting& setting, Work&& work) {
-  try {
-    work();
-  } catch (const std::invalid_argument& problem) {
-    throw refused(setting, problem.what());
-  }
-}
-
 double parse_number(const Setting& setting, std::string_view text) {
   if (const std::optional<double> value = exactly<double>(text)) return *value;
   throw refused(setting, fmt::format("must be {}, not '{}'", rule_of(setting).sentence(), text));
@@ -170,139 +160,144 @@ Sizes parse_sizes(const Setting& setting, const std::vector<std::string>& texts)
   return sizes;
 }
 
+/// The member of the settings, of their options or of the sizes.
+template <auto member>
+auto& at(Settings& settings) {
+  if constexpr (requires { settings.mesh.sizing.*member; })
+    return settings.mesh.sizing.*member;
+  else if constexpr (requires { settings.mesh.*member; })
+    return settings.mesh.*member;
+  else if constexpr (requires { settings.write.*member; })
+    return settings.write.*member;
+  else
+    return settings.*member;
+}
+
 std::vector<Setting> make_table() {
   const auto mm = "mm", s = "s", none = "";
   const auto read = Use::read, mesh = Use::mesh, write = Use::write;
-  // name, option, property, label, use, unit, low, high, above_low, otherwise, help, place
+  const NumberRule any;
+  const auto within = [](double low, double high, bool above_low = false) {
+    return NumberRule{low, high, above_low};
+  };
+  // name, option, property, label, use, unit, range, otherwise, help, place
   return {
-      {"size", "size", "Size", "Size", mesh, mm, 0, infinity, true, "a sixtieth of the model's diagonal",
-       "target edge length", [](Settings& v) -> double& { return v.mesh.sizing.size; }},
-      {"elements_per_diagonal", "elements-per-diagonal", none, none, mesh, none, 1, infinity, false, none,
+      {"size", "size", "Size", "Size", mesh, mm, positive, "a sixtieth of the model's diagonal",
+       "target edge length", at<&SizingOptions::size>},
+      {"elements_per_diagonal", "elements-per-diagonal", none, none, mesh, none, within(1, any.high), none,
        "target edge length: the model's diagonal divided by this number",
-       [](Settings& v) -> double& { return v.mesh.sizing.elements_per_diagonal; }},
-      {"size_min", "size-min", "SizeMin", "Minimum", mesh, mm, 0, infinity, true, "size / 8",
-       "no size goes below this, except those given by name or region",
-       [](Settings& v) -> double& { return v.mesh.sizing.size_min; }},
-      {"elements_per_circle", "curvature", "ElementsPerCircle", "Per circle", mesh, none, 0, infinity, false,
-       none, "elements on a full circle of curvature; 0 = curvature is ignored",
-       [](Settings& v) -> double& { return v.mesh.sizing.elements_per_circle; }},
-      {"aspect", "aspect", "Aspect", none, mesh, none, 1, 10, false, none,
+       at<&SizingOptions::elements_per_diagonal>},
+      {"size_min", "size-min", "SizeMin", "Minimum", mesh, mm, positive, "size / 8",
+       "no size goes below this, except those given by name or region", at<&SizingOptions::size_min>},
+      {"elements_per_circle", "curvature", "ElementsPerCircle", "Per circle", mesh, none, any, none,
+       "elements on a full circle of curvature; 0 = curvature is ignored",
+       at<&SizingOptions::elements_per_circle>},
+      {"aspect", "aspect", "Aspect", none, mesh, none, within(1, 10), none,
        "largest length over width of quads in rows over bends, fillets and narrow faces; 1 = squares",
-       [](Settings& v) -> double& { return v.mesh.sizing.aspect; }},
-      {"growth", "growth", "Growth", "Growth", mesh, none, 0, infinity, true, none,
-       "how fast sizes may grow: millimeters of size per millimeter of distance",
-       [](Settings& v) -> double& { return v.mesh.sizing.growth; }},
-      {"gradation", "gradation", "Gradation", none, mesh, none, 0, 0, false, none,
+       at<&SizingOptions::aspect>},
+      {"growth", "growth", "Growth", "Growth", mesh, none, positive, none,
+       "how fast sizes may grow: millimeters of size per millimeter of distance", at<&SizingOptions::growth>},
+      {"gradation", "gradation", "Gradation", none, mesh, none, any, none,
        "surface: sizes grow along faces and across their edges, but not across gaps or through walls; space: "
        "through air too",
-       [](Settings& v) -> Gradation& { return v.mesh.sizing.gradation; }},
-      {"chord_error", "chord-error", "ChordError", "Chord error", mesh, none, 0, 0, false, "any",
+       at<&SizingOptions::gradation>},
+      {"chord_error", "chord-error", "ChordError", "Chord error", mesh, none, any, "any",
        "largest distance of a segment from its curve or surface: a length in mm such as 0.05, or a share of "
        "the size such as 2%",
        Setting::Text{set_chord_error, chord_error_of}},
-      {"proximity", "proximity", "Proximity", "Across gaps", mesh, none, 0, 1000, false, none,
+      {"proximity", "proximity", "Proximity", "Across gaps", mesh, none, within(0, 1000), none,
        "elements across a gap inside a face, between its loops and rims; 0 = any number",
-       [](Settings& v) -> double& { return v.mesh.sizing.proximity; }},
-      {"order", "order", "ElementOrder", "Order", mesh, none, 1, 2, false,
+       at<&SizingOptions::proximity>},
+      {"order", "order", "ElementOrder", "Order", mesh, none, within(1, 2),
        "2 where a solver reads the mesh: in FreeCAD and in .inp, .unv, .med and .bdf files; else 1",
-       "1: four-node quads; 2: eight-node quads, better for shells",
-       [](Settings& v) -> int& { return v.mesh.order; }},
-      {"strategy", "strategy", "Strategy", "Strategy", mesh, none, 0, 0, false, none,
+       "1: four-node quads; 2: eight-node quads, better for shells", at<&MeshOptions::order>},
+      {"strategy", "strategy", "Strategy", "Strategy", mesh, none, any, none,
        "subdivide: triangles at twice the size are paired and each quad is cut in four; direct: triangles at "
        "the size are paired, except on faces where that fails",
-       [](Settings& v) -> Strategy& { return v.mesh.strategy; }},
-      {"faces", "faces", "Faces", "Faces", mesh, none, 0, 0, false, "all faces",
-       "faces to mesh, such as Face1,Face7", [](Settings& v) -> std::vector<int>& { return v.mesh.faces; }},
-      {"sizes", "size-on", none, none, mesh, mm, 0, 0, false, "none",
-       "sizes on faces, edges and vertices, such as Face3=0.5,Edge4=1",
-       [](Settings& v) -> SizingOptions& { return v.mesh.sizing; }},
-      {"size_field", "size-field", "SizeField", none, mesh, none, 0, 0, false, "none",
-       "OpenVDB grid (.vdb) that limits the size",
-       [](Settings& v) -> std::filesystem::path& { return v.mesh.sizing.size_field; }},
-      {"size_field_scale", "size-field-scale", "SizeFieldScale", none, mesh, none, 0, infinity, true, none,
-       "factor for the sizes in the grid",
-       [](Settings& v) -> double& { return v.mesh.sizing.size_field_scale; }},
-      {"size_field_unit", "size-field-unit", "SizeFieldUnit", none, mesh, none, 0, infinity, true, none,
+       at<&MeshOptions::strategy>},
+      {"faces", "faces", "Faces", "Faces", mesh, none, any, "all faces", "faces to mesh, such as Face1,Face7",
+       at<&MeshOptions::faces>},
+      {"sizes", "size-on", none, none, mesh, mm, any, "none",
+       "sizes on faces, edges and vertices, such as Face3=0.5,Edge4=1", at<&MeshOptions::sizing>},
+      {"size_field", "size-field", "SizeField", none, mesh, none, any, "none",
+       "OpenVDB grid (.vdb) that limits the size", at<&SizingOptions::size_field>},
+      {"size_field_scale", "size-field-scale", "SizeFieldScale", none, mesh, none, positive, none,
+       "factor for the sizes in the grid", at<&SizingOptions::size_field_scale>},
+      {"size_field_unit", "size-field-unit", "SizeFieldUnit", none, mesh, none, positive, none,
        "unit of length of the grid in millimeters, for its coordinates and its sizes",
-       [](Settings& v) -> double& { return v.mesh.sizing.size_field_unit; }},
-      {"size_points", "size-points", "SizePoints", none, mesh, none, 0, 0, false, "none",
-       "file (.csv) with lines x,y,z,size: points that request a size",
-       [](Settings& v) -> std::filesystem::path& { return v.mesh.sizing.size_points; }},
-      {"size_in", "size-in", "SizeIn", none, mesh, none, 0, 0, false, "none",
+       at<&SizingOptions::size_field_unit>},
+      {"size_points", "size-points", "SizePoints", none, mesh, none, any, "none",
+       "file (.csv) with lines x,y,z,size: points that request a size", at<&SizingOptions::size_points>},
+      {"size_in", "size-in", "SizeIn", none, mesh, none, any, "none",
        "sizes in space: box:x,y,z,x,y,z=SIZE, sphere:x,y,z,r=SIZE, cylinder:x,y,z,x,y,z,r=SIZE, "
        "halfspace:x,y,z,nx,ny,nz=SIZE (the side that the direction points to), in mm; SIZE,LENGTH: around "
        "the region the size grows to the global one over that length",
        Setting::EntryList{set_regions, regions_of}},
-      {"segments", "segments", "Segments", none, mesh, none, 0, 0, false, "by size",
+      {"segments", "segments", "Segments", none, mesh, none, any, "by size",
        "number of segments on edges, such as Edge4=20; opposite edges of grids get the same number",
-       Setting::EntryList{set_segments, segments_of}},
-      {"bias", "bias", "Bias", none, mesh, none, 0, 0, false, "none",
+       Setting::EntryList{set_spacings<&EdgeSpacing::segments>, spacings_of<&EdgeSpacing::segments>}},
+      {"bias", "bias", "Bias", none, mesh, none, any, "none",
        "ratio of each segment's length to that of the one before, such as Edge4=1.2",
-       Setting::EntryList{set_bias, bias_of}},
-      {"bias_both", "bias-both", "BiasBoth", none, mesh, none, 0, 0, false, "none",
+       Setting::EntryList{set_spacings<&EdgeSpacing::bias>, spacings_of<&EdgeSpacing::bias>}},
+      {"bias_both", "bias-both", "BiasBoth", none, mesh, none, any, "none",
        "the same ratio from both ends of an edge to its middle",
-       Setting::EntryList{set_bias_both, bias_both_of}},
-      {"imprint", "imprint", "Imprint", "Imprint", read, none, 0, 0, false, none,
+       Setting::EntryList{set_spacings<&EdgeSpacing::bias_both>, spacings_of<&EdgeSpacing::bias_both>}},
+      {"imprint", "imprint", "Imprint", "Imprint", read, none, any, none,
        "first cut parts that touch or cross where they meet, so that they share faces, edges and nodes",
-       [](Settings& v) -> bool& { return v.imprint; }},
-      {"sew", "sew", "Sew", "Sew", read, mm, 0, infinity, true, "not sewn",
-       "first join edges of neighboring faces that lie within this length of each other",
-       [](Settings& v) -> double& { return v.sew; }},
-      {"merge_tiny", "merge-tiny", "MergeTiny", "Merge tiny", mesh, mm, 0, infinity, true, "all are meshed",
+       at<&Settings::imprint>},
+      {"sew", "sew", "Sew", "Sew", read, mm, positive, "not sewn",
+       "first join edges of neighboring faces that lie within this length of each other", at<&Settings::sew>},
+      {"merge_tiny", "merge-tiny", "MergeTiny", "Merge tiny", mesh, mm, positive, "all are meshed",
        "leave out edges that are shorter and faces that are narrower than this length",
-       [](Settings& v) -> double& { return v.mesh.merge_tiny; }},
-      {"reach", "reach", "Reach", none, mesh, mm, 0, infinity, true, "half the minimum size",
+       at<&MeshOptions::merge_tiny>},
+      {"reach", "reach", "Reach", none, mesh, mm, positive, "half the minimum size",
        "suppress edges shorter and faces narrower than this length, where that does no harm",
-       [](Settings& v) -> double& { return v.mesh.reach; }},
-      {"fill_holes", "fill-holes", "FillHoles", "Fill holes", mesh, mm, 0, infinity, true, "all are meshed",
+       at<&MeshOptions::reach>},
+      {"fill_holes", "fill-holes", "FillHoles", "Fill holes", mesh, mm, positive, "all are meshed",
        "leave out holes, pockets and bosses that are no wider than this length",
-       [](Settings& v) -> double& { return v.mesh.fill_holes; }},
-      {"keep_features", "keep-features", "KeepFeatures", "Keep features", mesh, none, 0, 0, false, none,
+       at<&MeshOptions::fill_holes>},
+      {"keep_features", "keep-features", "KeepFeatures", "Keep features", mesh, none, any, none,
        "also mesh features below the reach instead of suppressing them, and let no quad cross a smooth edge",
-       [](Settings& v) -> bool& { return v.mesh.keep_features; }},
-      {"keep", "keep", "Keep", none, mesh, none, 0, 0, false, "none",
+       at<&MeshOptions::keep_features>},
+      {"keep", "keep", "Keep", none, mesh, none, any, "none",
        "faces and edges that keep nodes of their own, whatever their size and shape, such as Edge7,Face3",
        Setting::EntryList{set_kept, kept_of}},
-      {"nodes_at", "node", "NodesAt", none, mesh, none, 0, 0, false, "none",
+      {"nodes_at", "node", "NodesAt", none, mesh, none, any, "none",
        "a place on a face, edge or vertex that gets a node and a group of that node, x,y,z or Name=x,y,z in "
-       "mm; "
-       "without a name the groups are Node1, Node2, ...",
+       "mm; without a name the groups are Node1, Node2, ...",
        Setting::EntryList{set_nodes, nodes_of}},
-      {"rings", "rings", "Rings", "Rings", mesh, none, 0, 100, false, none,
+      {"rings", "rings", "Rings", "Rings", mesh, none, within(0, 100), none,
        "rings of quads around each hole without corners, if there is room for them; 0 = none",
-       [](Settings& v) -> int& { return v.mesh.rings; }},
-      {"partial", "partial", "Partial", "Partial", mesh, none, 0, 0, false, none,
-       "keep what could be meshed if a face fails", [](Settings& v) -> bool& { return v.mesh.partial; }},
-      {"strict", "strict", "Strict", "Strict", mesh, none, 0, 0, false, none,
+       at<&MeshOptions::rings>},
+      {"partial", "partial", "Partial", "Partial", mesh, none, any, none,
+       "keep what could be meshed if a face fails", at<&MeshOptions::partial>},
+      {"strict", "strict", "Strict", "Strict", mesh, none, any, none,
        "refuse a face that has no valid mesh on its surface, instead of letting nodes leave it",
-       [](Settings& v) -> bool& { return v.mesh.strict; }},
-      {"force", "force", "Force", none, mesh, none, 0, 0, false, none,
-       "allow more than 50 million elements and 5 million segments on edges",
-       [](Settings& v) -> bool& { return v.mesh.force; }},
-      {"read_time_limit", "read-time-limit", "ReadTimeLimit", none, read, s, 0, 1e8, false, none,
-       "give up reading the model after this time; 0 = never",
-       [](Settings& v) -> double& { return v.read_time_limit; }},
-      {"time_limit", "time-limit", "TimeLimit", "Time limit", mesh, s, 0, 1e8, true, "none",
-       "give up after this time", [](Settings& v) -> double& { return v.time_limit; }},
-      {"threads", "threads", "Threads", none, mesh, none, 0, 4096, false, none,
-       "number of threads, at most the number of cores; 0 = all cores",
-       [](Settings& v) -> int& { return v.threads; }},
-      {"msh_version", "msh-version", none, none, write, none, 0, 0, false, none, "version of .msh files",
-       [](Settings& v) -> MshVersion& { return v.write.msh_version; }},
-      {"nodes", "nodes", none, none, write, none, 8, 9, false, none,
+       at<&MeshOptions::strict>},
+      {"force", "force", "Force", none, mesh, none, any, none,
+       "allow more than 50 million elements and 5 million segments on edges", at<&MeshOptions::force>},
+      {"read_time_limit", "read-time-limit", "ReadTimeLimit", none, read, s, within(0, 1e8), none,
+       "give up reading the model after this time; 0 = never", at<&Settings::read_time_limit>},
+      {"time_limit", "time-limit", "TimeLimit", "Time limit", mesh, s, within(0, 1e8, true), "none",
+       "give up after this time", at<&Settings::time_limit>},
+      {"threads", "threads", "Threads", none, mesh, none, within(0, 4096), none,
+       "number of threads, at most the number of cores; 0 = all cores", at<&Settings::threads>},
+      {"msh_version", "msh-version", none, none, write, none, any, none, "version of .msh files",
+       at<&WriteOptions::msh_version>},
+      {"nodes", "nodes", none, none, write, none, within(8, 9), none,
        "nodes of second-order quads in files: 8, or 9 with one in the middle (.msh, .med, .vtu, .vtk and "
        ".xdmf)",
-       [](Settings& v) -> int& { return v.write.quad_nodes; }},
-      {"element", "element", none, none, write, none, 0, 0, false, none,
+       at<&WriteOptions::quad_nodes>},
+      {"element", "element", none, none, write, none, any, none,
        "type of the quads in .inp files; shell: S4, at second order S8R; for plane and axisymmetric elements "
        "(CPS, CPE, CAX) a plane mesh is turned into the plane z = 0",
-       [](Settings& v) -> InpElement& { return v.write.element; }},
-      {"scale", "scale", none, none, write, none, 0, 1e9, true, none,
+       at<&WriteOptions::element>},
+      {"scale", "scale", none, none, write, none, within(0, 1e9, true), none,
        "factor of all lengths in mesh files, such as 0.001 for meters; all other lengths stay in mm",
-       [](Settings& v) -> double& { return v.write.scale; }},
-      {"groups", "groups", none, none, write, none, 0, 0, false, none,
+       at<&WriteOptions::scale>},
+      {"groups", "groups", none, none, write, none, any, none,
        "groups to write, such as faces,edges; lines and points are written only with their groups",
-       [](Settings& v) -> GroupKinds& { return v.write.groups; }},
+       at<&WriteOptions::groups>},
   };
 }
 
@@ -321,26 +316,40 @@ void check_limits(const Settings& settings) {
   }
 }
 
-template <class Numbers>
-void check_names(const Setting& setting, const Numbers& numbers, int dimension, int count) {
-  for (const int number : numbers)
-    if (number < 1 || number > count)
-      throw refused(setting, fmt::format("names {0}, and there is no {0}: the model has {1} of them",
-                                         entity_name(dimension, number), count));
-}
-
-/// As std::views::keys, which clang 14 does not compile with GCC 12's library.
-template <class Value>
-std::vector<int> keys(const std::map<int, Value>& sizes) {
-  std::vector<int> numbers;
-  numbers.reserve(sizes.size());
-  for (const auto& [number, size] : sizes) numbers.push_back(number);
-  return numbers;
+void check_name(const Setting& setting, int dimension, int number, int count) {
+  if (number < 1 || number > count)
+    throw refused(setting, fmt::format("names {0}, and there is no {0}: the model has {1} of them",
+                                       entity_name(dimension, number), count));
 }
 
 /// The setting that a spacing comes from.
 const Setting& entry_of(const EdgeSpacing& spacing) {
   return entry(spacing.segments > 0 ? "segments" : spacing.bias != 1 ? "bias" : "bias_both");
+}
+
+/// The numbers of the pieces of a face, edge or vertex.
+std::vector<int> pieces_of(const Setting& setting, int dimension, int number, const CadModel& model) {
+  const std::vector<std::vector<int>>& pieces = dimension == 2   ? model.pieces()
+                                                : dimension == 1 ? model.edge_pieces()
+                                                                 : model.vertex_pieces();
+  if (pieces.empty())
+    throw refused(setting, fmt::format("names {}: edges and vertices cannot be named where a model is "
+                                       "imprinted with `sew`, which renumbers them",
+                                       entity_name(dimension, number)));
+  check_name(setting, dimension, number, static_cast<int>(pieces.size()));
+  return pieces[static_cast<std::size_t>(number) - 1];
+}
+
+/// Where several entities share a piece, the smallest of their sizes.
+void rename(int dimension, const CadModel& model, std::map<int, double>& sizes) {
+  std::map<int, double> renamed;
+  for (const auto& [number, size] : sizes) {
+    for (const int piece : pieces_of(entry("sizes"), dimension, number, model)) {
+      double& own = renamed.emplace(piece, size).first->second;
+      own = std::min(own, size);
+    }
+  }
+  sizes = std::move(renamed);
 }
 
 }  // namespace
@@ -363,7 +372,7 @@ std::vector<std::string_view> Setting::choices() const {
                           take_from(group_kinds);
                           words.push_back(no_groups);
                         },
-                        [](const EntryList&) {}, [](const Text&) {}},
+                        []<class Value>(const Accessors<Value>&) {}},
              place);
   return words;
 }
@@ -381,8 +390,7 @@ SettingValue Setting::value(const Settings& settings) const {
                 std::find_if(std::begin(words_for<Word>), std::end(words_for<Word>), has_value)->second);
           },
           [&](GroupKinds& (*at)(Settings&)) -> SettingValue { return words_of(at(from)); },
-          [&](const EntryList& list) -> SettingValue { return list.get(from.mesh.sizing); },
-          [&](const Text& text) -> SettingValue { return text.get(from.mesh.sizing); },
+          [&]<class Value>(const Accessors<Value>& at) -> SettingValue { return at.get(from.mesh.sizing); },
           [&](std::filesystem::path& (*at)(Settings&)) -> SettingValue { return at(from).string(); },
           [&](std::vector<int>& (*at)(Settings&)) -> SettingValue {
             Names names;
@@ -431,11 +439,12 @@ void assign(Settings& settings, const Setting& setting, const SettingValue& valu
           [&](bool& (*at)(Settings&)) { at(settings) = as<bool>(setting, value); },
           [&]<class Word>(Word& (*at)(Settings&)) { at(settings) = chosen<Word>(setting, value); },
           [&](GroupKinds& (*at)(Settings&)) { at(settings) = kinds_of(setting, value); },
-          [&](const Setting::EntryList& list) {
-            in_name_of(setting, [&] { list.set(settings.mesh.sizing, as<Names>(setting, value)); });
-          },
-          [&](const Setting::Text& text) {
-            in_name_of(setting, [&] { text.set(settings.mesh.sizing, as<std::string>(setting, value)); });
+          [&]<class Value>(const Setting::Accessors<Value>& at) {
+            try {
+              at.set(settings.mesh.sizing, as<Value>(setting, value));
+            } catch (const std::invalid_argument& problem) {
+              throw refused(setting, problem.what());
+            }
           },
           [&](std::filesystem::path& (*at)(Settings&)) {
             const auto& name = as<std::string>(setting, value);
@@ -452,35 +461,6 @@ CadModel joined(const Settings& settings, const CadModel& model) {
   const CadModel imprinted = settings.imprint ? model.imprinted(settings.sew) : model;
   return settings.sew > 0 ? imprinted.sewn(settings.sew) : imprinted;
 }
-
-namespace {
-
-/// The numbers of the pieces of a face, edge or vertex.
-std::vector<int> pieces_of(const Setting& setting, int dimension, int number, const CadModel& model) {
-  const std::vector<std::vector<int>>& pieces = dimension == 2   ? model.pieces()
-                                                : dimension == 1 ? model.edge_pieces()
-                                                                 : model.vertex_pieces();
-  if (pieces.empty())
-    throw refused(setting, fmt::format("names {}: edges and vertices cannot be named where a model is "
-                                       "imprinted with `sew`, which renumbers them",
-                                       entity_name(dimension, number)));
-  check_names(setting, std::array{number}, dimension, static_cast<int>(pieces.size()));
-  return pieces[static_cast<std::size_t>(number) - 1];
-}
-
-/// Where several entities share a piece, the smallest of their sizes.
-void rename(int dimension, const CadModel& model, std::map<int, double>& sizes) {
-  std::map<int, double> renamed;
-  for (const auto& [number, size] : sizes) {
-    for (const int piece : pieces_of(entry("sizes"), dimension, number, model)) {
-      double& own = renamed.emplace(piece, size).first->second;
-      own = std::min(own, size);
-    }
-  }
-  sizes = std::move(renamed);
-}
-
-}  // namespace
 
 Settings with_pieces(const Settings& settings, const CadModel& model) {
   if (model.pieces().empty()) return settings;
@@ -529,16 +509,14 @@ void check(const Settings& settings, const CadModel& model) {
     if (length > size)
       throw refused(entry(name), fmt::format("must be at most the size, {:.6g}, not {:g}", size, length));
   const int counts[] = {model.vertex_count(), model.edge_count(), model.face_count()};
-  const auto check_all = [&](const Setting& setting, const auto& numbers, int dimension) {
-    check_names(setting, numbers, dimension, counts[dimension]);
-  };
-  check_all(entry("faces"), settings.mesh.faces, 2);
+  for (const int face : settings.mesh.faces) check_name(entry("faces"), 2, face, counts[2]);
   for (const int dimension : {2, 1, 0})
-    check_all(entry("sizes"), keys(*sizes_by_name(sizing)[dimension]), dimension);
-  check_all(entry("keep"), sizing.kept_faces, 2);
-  check_all(entry("keep"), sizing.kept_edges, 1);
+    for (const auto& [number, wanted] : *sizes_by_name(sizing)[dimension])
+      check_name(entry("sizes"), dimension, number, counts[dimension]);
+  for (const int face : sizing.kept_faces) check_name(entry("keep"), 2, face, counts[2]);
+  for (const int edge : sizing.kept_edges) check_name(entry("keep"), 1, edge, counts[1]);
   for (const auto& [edge, spacing] : sizing.spacings) {
-    check_all(entry_of(spacing), std::array{edge}, 1);
+    check_name(entry_of(spacing), 1, edge, counts[1]);
     if (spacing.bias != 1 && spacing.bias_both != 1)
       throw refused(entry("bias_both"),
                     fmt::format("names Edge{}, which has a bias from one end: give one of them", edge));
@@ -547,6 +525,7 @@ void check(const Settings& settings, const CadModel& model) {
 
 nlohmann::ordered_json settings_table() {
   using json = nlohmann::ordered_json;
+  constexpr const char* uses[] = {"read", "mesh", "write"};
   const Settings defaults;
   json table = json::array();
   for (const Setting& setting : all_settings()) {
@@ -554,22 +533,21 @@ nlohmann::ordered_json settings_table() {
     if (setting.otherwise.empty())
       std::visit([&](const auto& value) { standard = value; }, setting.value(defaults));
     const bool numeric = setting.kind() == "number" || setting.kind() == "count";
-    table.push_back({{"name", setting.name},
-                     {"option", "--" + std::string(setting.option)},
-                     {"property", setting.property},
-                     {"label", setting.label},
-                     {"kind", setting.kind()},
-                     {"use", setting.use == Use::read   ? "read"
-                             : setting.use == Use::mesh ? "mesh"
-                                                        : "write"},
-                     {"unit", setting.unit},
-                     {"default", standard},
-                     {"low", numeric ? json(setting.low) : json()},
-                     {"high", numeric && setting.high < infinity ? json(setting.high) : json()},
-                     {"above_low", setting.above_low},
-                     {"choices", setting.choices()},
-                     {"otherwise", setting.otherwise},
-                     {"help", setting.help}});
+    table.push_back(
+        {{"name", setting.name},
+         {"option", "--" + std::string(setting.option)},
+         {"property", setting.property},
+         {"label", setting.label},
+         {"kind", setting.kind()},
+         {"use", uses[static_cast<int>(setting.use)]},
+         {"unit", setting.unit},
+         {"default", standard},
+         {"low", numeric ? json(setting.range.low) : json()},
+         {"high", numeric && std::isfinite(setting.range.high) ? json(setting.range.high) : json()},
+         {"above_low", setting.range.above_low},
+         {"choices", setting.choices()},
+         {"otherwise", setting.otherwise},
+         {"help", setting.help}});
   }
   return table;
 }

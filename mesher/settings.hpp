@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/base/api.hpp"
+#include "geometry/base/number_rule.hpp"
 #include "mesher/options.hpp"
 
 namespace quadrille {
@@ -36,16 +37,14 @@ using SettingValue =
 struct QUADRILLE_API Setting {
   /// When the setting takes effect: while the model is read, while it is meshed, or while files are written.
   enum class Use { read, mesh, write };
-  /// Accessors of a list of entries, kept in the sizing options; the help describes their form.
-  struct EntryList {
-    void (*set)(SizingOptions&, const std::vector<std::string>&);  ///< throws std::invalid_argument
-    std::vector<std::string> (*get)(const SizingOptions&);         ///< in the form that set() takes
+  /// Accessors of texts, kept in the sizing options; the help describes their form.
+  template <class Value>
+  struct Accessors {
+    void (*set)(SizingOptions&, const Value&);  ///< throws std::invalid_argument
+    Value (*get)(const SizingOptions&);         ///< in the form that set() takes
   };
-  /// Accessors of a single text, likewise.
-  struct Text {
-    void (*set)(SizingOptions&, const std::string&);  ///< throws std::invalid_argument
-    std::string (*get)(const SizingOptions&);         ///< in the form that set() takes
-  };
+  using EntryList = Accessors<std::vector<std::string>>;
+  using Text = Accessors<std::string>;
   /// Where the value is kept. The type determines what the setting takes: a number, a whole number, yes or
   /// no, one word of `choices` (Strategy, MshVersion, Gradation, InpElement), a file, faces, sizes on faces,
   /// edges and vertices, several words of `choices` (GroupKinds), entries, a text.
@@ -55,17 +54,16 @@ struct QUADRILLE_API Setting {
                              MshVersion& (*)(Settings&), GroupKinds& (*)(Settings&),
                              Gradation& (*)(Settings&), EntryList, Text, InpElement& (*)(Settings&)>;
 
-  std::string_view name;                        ///< in Python; library messages quote it in backquotes
-  std::string_view option;                      ///< of the command, without the two hyphens
-  std::string_view property;                    ///< in FreeCAD; empty = no such property
-  std::string_view label;                       ///< in FreeCAD's panel; empty = not in the panel
-  Use use = Use::mesh;                          ///< when it takes effect
-  std::string_view unit;                        ///< "mm", "s" or empty
-  double low = 0 /**< least value */, high = 0; /**< largest value */
-  bool above_low = false;                       ///< the value `low` itself is not allowed
-  std::string_view otherwise;                   ///< describes the default if that is not a plain value
-  std::string_view help;                        ///< one line that explains the setting
-  Place place;                                  ///< where Settings keeps the value
+  std::string_view name;       ///< in Python; library messages quote it in backquotes
+  std::string_view option;     ///< of the command, without the two hyphens
+  std::string_view property;   ///< in FreeCAD; empty = no such property
+  std::string_view label;      ///< in FreeCAD's panel; empty = not in the panel
+  Use use = Use::mesh;         ///< when it takes effect
+  std::string_view unit;       ///< "mm", "s" or empty
+  NumberRule range;            ///< the numbers allowed
+  std::string_view otherwise;  ///< describes the default if that is not a plain value
+  std::string_view help;       ///< one line that explains the setting
+  Place place;                 ///< where Settings keeps the value
 
   std::string_view kind() const;  ///< number, count, flag, choice, file, names, sizes, words, entries, text
   std::vector<std::string_view> choices()

@@ -2,6 +2,7 @@
 
 #include "mesher/size_entries.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -9,10 +10,12 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/base/number_rule.hpp"
 #include "geometry/cad/face_names.hpp"
 #include "mesher/mesh/entity_name.hpp"
 
@@ -60,26 +63,24 @@ SizeRegion region(const std::string& entry) {
   const std::size_t colon = entry.find(':'), equals = entry.find('=');
   if (colon == std::string::npos || equals == std::string::npos || equals < colon) refuse(what, entry);
   const std::string_view text = entry;
-  const ShapeForm* form = nullptr;
-  for (const ShapeForm& known : shape_forms) {
-    if (known.name == text.substr(0, colon)) form = &known;
-  }
+  const auto form = std::find_if(shape_forms.begin(), shape_forms.end(),
+                                 [&](const ShapeForm& known) { return known.name == text.substr(0, colon); });
   const std::vector<double> place = numbers(text.substr(colon + 1, equals - colon - 1));
   const std::vector<double> sizes = numbers(text.substr(equals + 1));
-  if (form == nullptr || place.size() != form->numbers || sizes.empty() || sizes.size() > 2)
+  if (form == shape_forms.end() || place.size() != form->numbers || sizes.empty() || sizes.size() > 2)
     refuse(what, entry);
   if (!(sizes[0] > 0) || (sizes.size() == 2 && !(sizes[1] >= 0))) refuse("positive sizes", entry);
-  SizeRegion result{form->shape, Vector3(place[0], place[1], place[2]), {0, 0, 0}, 0,
-                    sizes[0],    sizes.size() == 2 ? sizes[1] : 0};
-  if (place.size() >= 6) result.b = Vector3(place[3], place[4], place[5]);
-  if (place.size() == 4 || place.size() == 7) result.radius = place.back();
+  SizeRegion result{form->shape, Vector3(place.data())};
+  result.size = sizes[0];
+  if (sizes.size() == 2) result.transition = sizes[1];
+  if (form->numbers >= 6) result.b = Vector3(place.data() + 3);
+  if (form->numbers != 6) result.radius = place.back();
   if (result.shape == Shape::box) {
-    const Vector3 low = result.a.cwiseMin(result.b), high = result.a.cwiseMax(result.b);
+    const Vector3 low = result.a.cwiseMin(result.b);
+    result.b = result.a.cwiseMax(result.b);
     result.a = low;
-    result.b = high;
   }
-  const bool has_radius = result.shape == Shape::sphere || result.shape == Shape::cylinder;
-  if (has_radius && !(result.radius > 0)) refuse("positive radii", entry);
+  if (form->numbers != 6 && !(result.radius > 0)) refuse("positive radii", entry);
   if (result.shape == Shape::cylinder && result.a == result.b) refuse("cylinders whose ends differ", entry);
   if (result.shape == Shape::half_space && result.b.isZero()) refuse("half-spaces with a direction", entry);
   return result;
@@ -92,47 +93,6 @@ std::string text_of(const SizeRegion& region) {
   if (form.numbers != 6) place.push_back(region.radius);
   const std::string text = fmt::format("{}:{}={}", form.name, fmt::join(place, ","), region.size);
   return region.transition > 0 ? text + fmt::format(",{}", region.transition) : text;
-}
-
-/// Entries such as "Edge4=20", split at commas: calls take(number, value) for each. Edges may not repeat.
-template <class Take>
-void take_edges(const Entries& entries, const char* what, Take&& take) {
-  std::set<int> names;
-  for (const std::string& entry : entries) {
-    for (const std::string_view part : split(entry)) {
-      const auto [name, text] = sides_of_equals(part);
-      const auto [dimension, edge] = entity_of(name);
-      const auto value = number(text);
-      if (dimension != 1 || !value || !take(edge, *value)) refuse(what, std::string(part));
-      if (!names.insert(edge).second) throw std::invalid_argument(fmt::format("names Edge{} twice", edge));
-    }
-  }
-}
-
-/// Removes spacings that prescribe nothing.
-void tidy(SizingOptions& sizing) {
-  std::erase_if(sizing.spacings, [](const auto& item) {
-    return item.second.segments == 0 && item.second.bias == 1 && item.second.bias_both == 1;
-  });
-}
-
-void set_ratio(SizingOptions& sizing, const Entries& entries, double EdgeSpacing::*place) {
-  for (auto& [edge, spacing] : sizing.spacings) spacing.*place = 1;
-  constexpr double steepest = 10;
-  take_edges(entries, "ratios between 0.1 and 10 such as Edge4=1.2", [&](int edge, double value) {
-    if (!(value >= 1 / steepest && value <= steepest)) return false;
-    sizing.spacings[edge].*place = value;
-    return true;
-  });
-  tidy(sizing);
-}
-
-Entries ratios_of(const SizingOptions& sizing, double EdgeSpacing::*place) {
-  Entries entries;
-  for (const auto& [edge, spacing] : sizing.spacings) {
-    if (spacing.*place != 1) entries.push_back(fmt::format("Edge{}={}", edge, spacing.*place));
-  }
-  return entries;
 }
 
 }  // namespace
@@ -167,49 +127,55 @@ Entries kept_of(const SizingOptions& sizing) {
   return entries;
 }
 
-void set_segments(SizingOptions& sizing, const Entries& entries) {
-  for (auto& [edge, spacing] : sizing.spacings) spacing.segments = 0;
-  take_edges(entries, "whole numbers from 1 to a million such as Edge4=20", [&](int edge, double value) {
-    if (!(value >= 1 && value <= 1e6 && value == std::floor(value))) return false;
-    sizing.spacings[edge].segments = static_cast<int>(value);
-    return true;
-  });
-  tidy(sizing);
-}
-
-Entries segments_of(const SizingOptions& sizing) {
-  Entries entries;
-  for (const auto& [edge, spacing] : sizing.spacings) {
-    if (spacing.segments > 0) entries.push_back(fmt::format("Edge{}={}", edge, spacing.segments));
+template <auto place>
+void set_spacings(SizingOptions& sizing, const Entries& entries) {
+  using Number = std::decay_t<decltype(EdgeSpacing().*place)>;
+  constexpr bool counts = std::is_same_v<Number, int>;
+  constexpr NumberRule rule = counts ? NumberRule{1, 1e6, false, true} : NumberRule{0.1, 10};
+  constexpr const char* what = counts ? "whole numbers from 1 to a million such as Edge4=20"
+                                      : "ratios between 0.1 and 10 such as Edge4=1.2";
+  for (auto& [edge, spacing] : sizing.spacings) spacing.*place = EdgeSpacing().*place;
+  std::set<int> names;
+  for (const std::string& entry : entries) {
+    for (const std::string_view part : split(entry)) {
+      const auto [name, text] = sides_of_equals(part);
+      const auto [dimension, edge] = entity_of(name);
+      const auto value = number(text);
+      if (dimension != 1 || !value || !rule.allows(*value)) refuse(what, std::string(part));
+      if (!names.insert(edge).second) throw std::invalid_argument(fmt::format("names Edge{} twice", edge));
+      sizing.spacings[edge].*place = static_cast<Number>(*value);
+    }
   }
+  std::erase_if(sizing.spacings, [](const auto& item) {  // those that prescribe nothing
+    return item.second.segments == 0 && item.second.bias == 1 && item.second.bias_both == 1;
+  });
+}
+template void set_spacings<&EdgeSpacing::segments>(SizingOptions&, const Entries&);
+template void set_spacings<&EdgeSpacing::bias>(SizingOptions&, const Entries&);
+template void set_spacings<&EdgeSpacing::bias_both>(SizingOptions&, const Entries&);
+
+template <auto place>
+Entries spacings_of(const SizingOptions& sizing) {
+  Entries entries;
+  for (const auto& [edge, spacing] : sizing.spacings)
+    if (spacing.*place != EdgeSpacing().*place)
+      entries.push_back(fmt::format("Edge{}={}", edge, spacing.*place));
   return entries;
 }
-
-void set_bias(SizingOptions& sizing, const Entries& entries) {
-  set_ratio(sizing, entries, &EdgeSpacing::bias);
-}
-Entries bias_of(const SizingOptions& sizing) {
-  return ratios_of(sizing, &EdgeSpacing::bias);
-}
-void set_bias_both(SizingOptions& sizing, const Entries& entries) {
-  set_ratio(sizing, entries, &EdgeSpacing::bias_both);
-}
-Entries bias_both_of(const SizingOptions& sizing) {
-  return ratios_of(sizing, &EdgeSpacing::bias_both);
-}
+template Entries spacings_of<&EdgeSpacing::segments>(const SizingOptions&);
+template Entries spacings_of<&EdgeSpacing::bias>(const SizingOptions&);
+template Entries spacings_of<&EdgeSpacing::bias_both>(const SizingOptions&);
 
 void set_nodes(SizingOptions& sizing, const Entries& entries) {
   static const std::regex form("[A-Za-z][A-Za-z0-9_-]{0,59}");
   std::set<std::string> names;
   std::vector<NodePlace> nodes;
   for (const std::string& entry : entries) {
-    const std::size_t equals = entry.find('=');
-    const std::string name = equals == std::string::npos ? "" : entry.substr(0, equals);
-    const std::string_view place =
-        std::string_view(entry).substr(equals == std::string::npos ? 0 : equals + 1);
-    const std::vector<double> at = numbers(place);
+    const std::size_t place = entry.find('=') + 1;  // 0 if there is none
+    const std::string name = entry.substr(0, place == 0 ? 0 : place - 1);
+    const std::vector<double> at = numbers(std::string_view(entry).substr(place));
     if (at.size() != 3) refuse("places such as 10,0,2.5 or Tip=10,0,2.5", entry);
-    if (equals != std::string::npos && (!std::regex_match(name, form) || is_own_group(name)))
+    if (place > 0 && (!std::regex_match(name, form) || is_own_group(name)))
       refuse("names of letters, digits, _ and - that no other group can have", name);
     if (!name.empty() && !names.insert(upper(name)).second)  // CalculiX ignores case
       throw std::invalid_argument(fmt::format("names {} twice", name));

@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes and divisions as users write them: "box:0,0,0,10,10,5=0.5", "Edge4=20", "Edge4=0.1,1.2,6". Internal.
+/// Sizes and divisions as users write them: "box:0,0,0,10,10,5=0.5", "Edge4=20". Internal.
 
 #include <string>
 #include <vector>
@@ -17,19 +17,16 @@ using Entries = std::vector<std::string>;
 void set_regions(SizingOptions& sizing, const Entries& entries);
 Entries regions_of(const SizingOptions& sizing);
 
-/// "Edge4=20"; one entry may hold several, separated by commas.
+/// "Edge7", "Face3"; one entry may hold several, separated by commas.
 void set_kept(SizingOptions& sizing, const Entries& entries);
 Entries kept_of(const SizingOptions& sizing);
-void set_segments(SizingOptions& sizing, const Entries& entries);
-Entries segments_of(const SizingOptions& sizing);
 
-/// "Edge4=1.2"; one entry may hold several, separated by commas.
-void set_bias(SizingOptions& sizing, const Entries& entries);
-Entries bias_of(const SizingOptions& sizing);
-void set_bias_both(SizingOptions& sizing, const Entries& entries);
-Entries bias_both_of(const SizingOptions& sizing);
-
-/// "Edge4=FIRST,RATIO,COUNT", likewise for faces and vertices.
+/// "Edge4=20" for segments, "Edge4=1.2" for a bias; one entry may hold several, separated by commas.
+/// \tparam place the member of EdgeSpacing
+template <auto place>
+void set_spacings(SizingOptions& sizing, const Entries& entries);
+template <auto place>
+Entries spacings_of(const SizingOptions& sizing);
 
 /// "x,y,z" or "Name=x,y,z". Names are letters, digits, '_' and '-', and none is a group's name already.
 void set_nodes(SizingOptions& sizing, const Entries& entries);

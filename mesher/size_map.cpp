@@ -39,50 +39,38 @@ struct Kind {
 
 using Options = SizingOptions;
 
+template <auto... members>
+void take(Options& to, const Options& from) {
+  ((to.*members = from.*members), ...);
+}
+
 constexpr Kind kinds[] = {
     {"curvature", [](const Options& o) { return o.elements_per_circle > 0; },
-     [](Options& to, const Options& from) { to.elements_per_circle = from.elements_per_circle; }},
+     take<&Options::elements_per_circle>},
     {"chord-error", [](const Options& o) { return o.chord_error.length > 0 || o.chord_error.share > 0; },
-     [](Options& to, const Options& from) { to.chord_error = from.chord_error; }},
-    {"short edges", [](const Options& o) { return o.short_edges; },
-     [](Options& to, const Options& from) { to.short_edges = from.short_edges; }},
-    {"proximity", [](const Options& o) { return o.proximity > 0; },
-     [](Options& to, const Options& from) { to.proximity = from.proximity; }},
+     take<&Options::chord_error>},
+    {"short edges", [](const Options& o) { return o.short_edges; }, take<&Options::short_edges>},
+    {"proximity", [](const Options& o) { return o.proximity > 0; }, take<&Options::proximity>},
     {"size-on",
      [](const Options& o) {
        return !o.face_sizes.empty() || !o.edge_sizes.empty() || !o.vertex_sizes.empty();
      },
-     [](Options& to, const Options& from) {
-       to.face_sizes = from.face_sizes;
-       to.edge_sizes = from.edge_sizes;
-       to.vertex_sizes = from.vertex_sizes;
-     }},
-    {"size-in", [](const Options& o) { return !o.regions.empty(); },
-     [](Options& to, const Options& from) { to.regions = from.regions; }},
+     take<&Options::face_sizes, &Options::edge_sizes, &Options::vertex_sizes>},
+    {"size-in", [](const Options& o) { return !o.regions.empty(); }, take<&Options::regions>},
+    // The sizes of edges determine the number of segments if there is only a bias.
     {"segments, bias", [](const Options& o) { return !o.spacings.empty(); },
-     [](Options& to, const Options& from) {
-       to.spacings = from.spacings;
-       to.edge_sizes = from.edge_sizes;  // determine the number of segments if there is only a bias
-     }},
-    {"size-points", [](const Options& o) { return !o.size_points.empty(); },
-     [](Options& to, const Options& from) { to.size_points = from.size_points; }},
+     take<&Options::spacings, &Options::edge_sizes>},
+    {"size-points", [](const Options& o) { return !o.size_points.empty(); }, take<&Options::size_points>},
     {"size-field", [](const Options& o) { return !o.size_field.empty(); },
-     [](Options& to, const Options& from) {
-       to.size_field = from.size_field;
-       to.size_field_scale = from.size_field_scale;
-       to.size_field_unit = from.size_field_unit;
-     }},
+     take<&Options::size_field, &Options::size_field_scale, &Options::size_field_unit>},
 };
 
 /// Options with the same limits, gradation and budget, but without sources.
 SizingOptions without_sources(const SizingOptions& options, const SizeLimits& limits) {
   SizingOptions none;
+  take<&Options::growth, &Options::gradation, &Options::aspect, &Options::budget>(none, options);
   none.size = limits.largest;
   none.size_min = limits.least;
-  none.growth = options.growth;
-  none.gradation = options.gradation;
-  none.aspect = options.aspect;
-  none.budget = options.budget;
   none.elements_per_circle = 0;
   none.short_edges = false;
   return none;
@@ -100,8 +88,6 @@ class Look {
       for (const int i : of_face_[face]) curvatures_[i] = own.max_curvature(surface.uv[i]);
     });
   }
-
-  const std::vector<Vector3>& points() const { return points_; }
 
   struct Sizes {
     std::vector<double> across, along;  // (points) of bends; equal elsewhere
@@ -205,8 +191,8 @@ SizeMap size_map(const CadModel& model, const MeshOptions& options, ExecutionCon
     for (const FaceId face : surface.faces) map.faces.push_back(face.number());
     for (const FaceId face : surface.missing) map.missing.push_back(face.number());
     for (const SurfaceTriangles::Line& line : surface.lines) map.lines.push_back({line.points, line.edge});
+    map.points = surface.points;
     const Look look(model.shape(), std::move(surface));
-    map.points = look.points();
     Look::Sizes found = look.sizes(field);
     map.sizes = std::move(found.across);
     map.along = std::move(found.along);

@@ -68,12 +68,12 @@ TEST(Settings, NumbersOutsideTheLimitsAreRefused) {
       }
     };
     ++limits;
-    EXPECT_TRUE(refuses(std::nextafter(setting.low, -INFINITY)));
-    EXPECT_EQ(refuses(setting.low), setting.above_low);
+    EXPECT_TRUE(refuses(std::nextafter(setting.range.low, -INFINITY)));
+    EXPECT_EQ(refuses(setting.range.low), setting.range.above_low);
     EXPECT_TRUE(refuses(std::numeric_limits<double>::quiet_NaN()));
-    if (std::isfinite(setting.high)) {
-      EXPECT_FALSE(refuses(setting.high));
-      EXPECT_TRUE(refuses(setting.high + 1));
+    if (std::isfinite(setting.range.high)) {
+      EXPECT_FALSE(refuses(setting.range.high));
+      EXPECT_TRUE(refuses(setting.range.high + 1));
     }
   }
   EXPECT_GT(limits, 10);

@@ -23,9 +23,9 @@ TEST(SizeEntries, ComeBackAsTheyWere) {
        {"box:0,0,0,10,10,5=0.5", "sphere:1,2,3,4=0.25,7", "cylinder:0,0,0,0,0,9,2=1",
         "halfspace:0,0,1,0,0,-1=2"}},
       {set_kept, kept_of, {"Face7", "Edge3"}},
-      {set_segments, segments_of, {"Edge4=20", "Edge9=1"}},
-      {set_bias, bias_of, {"Edge4=1.2"}},
-      {set_bias_both, bias_both_of, {"Edge4=0.8"}},
+      {set_spacings<&EdgeSpacing::segments>, spacings_of<&EdgeSpacing::segments>, {"Edge4=20", "Edge9=1"}},
+      {set_spacings<&EdgeSpacing::bias>, spacings_of<&EdgeSpacing::bias>, {"Edge4=1.2"}},
+      {set_spacings<&EdgeSpacing::bias_both>, spacings_of<&EdgeSpacing::bias_both>, {"Edge4=0.8"}},
       {set_nodes, nodes_of, {"Tip=1,-2.5,3"}}};
   for (const auto& [set, get, entries] : kinds) {
     SizingOptions first, second;
@@ -48,10 +48,10 @@ TEST(SizeEntries, AreUnderstood) {
   EXPECT_EQ(sizing.regions[0].radius, 2);
   EXPECT_EQ(sizing.regions[0].size, 0.5);
   EXPECT_EQ(sizing.regions[0].transition, 3);
-  set_segments(sizing, {"Edge4=20,Edge5=3"});
+  set_spacings<&EdgeSpacing::segments>(sizing, {"Edge4=20,Edge5=3"});
   EXPECT_EQ(sizing.spacings.at(4).segments, 20);
   EXPECT_EQ(sizing.spacings.at(5).segments, 3);
-  set_bias(sizing, {"Edge4=1.2"});
+  set_spacings<&EdgeSpacing::bias>(sizing, {"Edge4=1.2"});
   EXPECT_EQ(sizing.spacings.at(4).segments, 20) << "the number stays";
   EXPECT_EQ(sizing.spacings.at(4).bias, 1.2);
   set_chord_error(sizing, "2%");
@@ -69,10 +69,10 @@ TEST(SizeEntries, AreRefusedWithTheEntry) {
   const std::vector<std::pair<Set, const char*>> wrong = {{set_regions, "ball:0,0,0,1=1"},
                                                           {set_regions, "box:0,0,0,1=1"},
                                                           {set_regions, "sphere:0,0,0,1"},
-                                                          {set_segments, "Face4=20"},
-                                                          {set_segments, "Edge4"},
-                                                          {set_segments, "Edge4=1.5"},
-                                                          {set_bias, "Edge4=x"},
+                                                          {set_spacings<&EdgeSpacing::segments>, "Face4=20"},
+                                                          {set_spacings<&EdgeSpacing::segments>, "Edge4"},
+                                                          {set_spacings<&EdgeSpacing::segments>, "Edge4=1.5"},
+                                                          {set_spacings<&EdgeSpacing::bias>, "Edge4=x"},
                                                           {set_nodes, "1,2"},
                                                           {set_kept, "Solid1"}};
   for (const auto& [set, entry] : wrong) {
