@@ -165,7 +165,7 @@ ShellMesh mesh(const CadModel& model, const MeshOptions& options, ExecutionConte
   return result;
 }
 
-SmallFeatures small_features(const CadModel& model, const MeshOptions& options, ExecutionContext&) {
+SmallFeatures small_features(const CadModel& model, const MeshOptions& options) {
   const Prepared prepared(model, options);
   SmallFeatures result{suppressed_features(prepared, prepared.plan.tiny),
                        {},

@@ -52,8 +52,7 @@ struct SmallFeatures {
 
 /// What mesh() suppresses with these options before any face is meshed. If a face then cannot be meshed,
 /// mesh() restores its features. Throws Error (usage) for invalid options. Time is linear in the edges.
-QUADRILLE_API SmallFeatures small_features(const CadModel& model, const MeshOptions& options,
-                                           ExecutionContext& context);
+QUADRILLE_API SmallFeatures small_features(const CadModel& model, const MeshOptions& options);
 
 /// The library's version, "major.minor.patch".
 QUADRILLE_API std::string version();

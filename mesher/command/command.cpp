@@ -16,8 +16,7 @@
 
 namespace quadrille::command {
 
-void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
-                const std::function<void()>& draw) {
+void draw_apart(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context) {
   IsolatedWork options;
   options.subject = path.string();
   options.crashed =
@@ -27,7 +26,7 @@ void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
   options.stage = Stage::write;
   const auto work = [&](std::ostream&) {
     try {
-      draw();
+      write_picture(mesh, path);
     } catch (const std::exception& problem) {
       const std::string sentence = problem.what();
       if (sentence.rfind(path.string(), 0) == 0) throw;  // a problem with the file, not with the renderer
@@ -87,34 +86,32 @@ void require_different(const NamedFile& first, const NamedFile& second) {
 
 }  // namespace
 
-std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const SizingOptions& sizing) {
-  return {{"IN", input}, {"--size-field", sizing.size_field}, {"--size-points", sizing.size_points}};
-}
-
-std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
-                                    const std::vector<NamedFile>& others) {
-  std::vector<NamedFile> files;
-  files.reserve(paths.size() + others.size());
-  for (const std::filesystem::path& path : paths) files.push_back({"-o", path});
+void require_usable(const RunArguments& arguments, const std::string& input,
+                    const std::vector<NamedFile>& others, std::string_view ending) {
+  const MeshOptions& mesh = arguments.settings.mesh;
+  std::vector<NamedFile> files{{input, arguments.input},
+                               {"--size-field", mesh.sizing.size_field},
+                               {"--size-points", mesh.sizing.size_points}};
   files.insert(files.end(), others.begin(), others.end());
-  return files;
-}
-
-void require_usable(const CommandFiles& files) {
-  for (const NamedFile& output : files.outputs)
-    if (!output.path.empty()) require_possible(output);
-  for (std::size_t i = 0; i < files.inputs.size(); ++i)
-    if (i == 0 || !files.inputs[i].path.empty()) require_readable(files.inputs[i].path);
-  std::vector<NamedFile> all = files.inputs;
-  all.insert(all.end(), files.outputs.begin(), files.outputs.end());
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k) require_different(all[k], all[i]);
+  const std::size_t inputs = files.size();
+  for (const std::filesystem::path& output : arguments.outputs) files.push_back({"-o", output, ending});
+  files.insert(files.end(), {{"--report", arguments.report},
+                             {"--picture", arguments.picture, ".png"},
+                             {"--write-size-field", mesh.write_size_field, ".vdb"}});
+  for (std::size_t i = inputs; i < files.size(); ++i)
+    if (!files[i].path.empty()) require_possible(files[i]);
+  for (std::size_t i = 0; i < inputs; ++i)
+    if (i == 0 || !files[i].path.empty()) require_readable(files[i].path);
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) require_different(files[k], files[i]);
 }
 
 Work::Work(const RunArguments& arguments, const std::vector<Stage>& stages, bool partial)
-    : display(arguments.quiet),
-      context(arguments.settings.threads,
-              [this](std::string_view stage, double fraction) { return display.show(stage, fraction); }),
+    : context(
+          arguments.settings.threads,
+          arguments.quiet
+              ? ExecutionContext::Progress()
+              : [this](std::string_view stage, double fraction) { return display.show(stage, fraction); }),
       cancel(context, arguments.settings.time_limit, partial) {
   context.expect(stages);
   if (arguments.end_with_input) end_with_input();
@@ -141,8 +138,7 @@ void write_outputs(const ShellMesh& mesh, const RunArguments& arguments, Work& w
     write_mesh(mesh, arguments.outputs[i], options);
     work.cancel.wrote(arguments.outputs[i]);
   }
-  const std::filesystem::path& picture = arguments.picture;
-  if (!picture.empty()) draw_apart(picture, work.context, [&] { write_picture(mesh, picture); });
+  if (!arguments.picture.empty()) draw_apart(mesh, arguments.picture, work.context);
 }
 
 }  // namespace quadrille::command

@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -55,27 +54,16 @@ struct NamedFile {
   std::string_view ending = {};  ///< that an output must have (".png"); empty = checked by the command
 };
 
-/// All files that a command reads, the one that it cannot do without first, and all that it writes.
-struct CommandFiles {
-  std::vector<NamedFile> inputs, outputs;
-};
-
-/// The CAD file and the files that the sizes come from.
-std::vector<NamedFile> model_inputs(const std::filesystem::path& input, const SizingOptions& sizing);
-
-/// The files of -o, then the others.
-std::vector<NamedFile> with_outputs(const std::vector<std::filesystem::path>& paths,
-                                    const std::vector<NamedFile>& others);
-
 /// Throws Error: failure unless the inputs can be read, usage unless the outputs can be made (the folder
 /// exists and is writable), have the right endings, and all files are different: no output replaces an input
 /// or another output. Links are followed. Devices and pipes may be named twice.
-void require_usable(const CommandFiles& files);
+/// \param input the argument that names the input \param others further inputs \param ending of the -o files
+void require_usable(const RunArguments& arguments, const std::string& input,
+                    const std::vector<NamedFile>& others = {}, std::string_view ending = {});
 
-/// Draws a picture in a child process, since the renderer ends its process if memory or threads run out.
+/// Draws the mesh in a child process, since the renderer ends its process if memory or threads run out.
 /// Throws Error (failure) that names the file.
-void draw_apart(const std::filesystem::path& path, ExecutionContext& context,
-                const std::function<void()>& draw);
+void draw_apart(const ShellMesh& mesh, const std::filesystem::path& path, ExecutionContext& context);
 
 /// From now on a crash, mostly of the CAD library on a damaged file, ends the process with one line on stderr
 /// that names the file, and exit code 1; unfinished files are removed. \param work what is being done, such
@@ -90,7 +78,7 @@ void tell_limits();
 /// most two per second and none in the first half second.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(bool quiet);
+  ProgressDisplay();
   ~ProgressDisplay();  ///< clears the bar
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -101,7 +89,6 @@ class ProgressDisplay {
  private:
   void draw_bar(std::string_view stage, int percent);
 
-  bool quiet_;
   bool terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point last_;

@@ -18,7 +18,7 @@ void LimitsOption::add_to(CLI::App& command) {
                 ->expected(0, 1);
 }
 
-CriteriaLimits LimitsOption::limits(const ShellMesh& mesh) const {
+CriteriaLimits LimitsOption::of(const ShellMesh& mesh) const {
   if (file_.empty()) return limits_of(mesh);
   if (!read_) {  // once: the file may be a pipe
     require_readable(file_);
@@ -28,8 +28,8 @@ CriteriaLimits LimitsOption::limits(const ShellMesh& mesh) const {
 }
 
 void LimitsOption::hold(const std::filesystem::path& file, const ShellMesh& mesh) const {
-  if (!given()) return;
-  const CriteriaSummary criteria = check_criteria(mesh, limits(mesh));
+  if (option_->count() == 0) return;
+  const CriteriaSummary criteria = check_criteria(mesh, of(mesh));
   if (criteria.failing == 0) return;
   throw failure(file.string(), fmt::format("{}: {} of {} quads are outside the limits", file.string(),
                                            criteria.failing, criteria.quads));

@@ -16,16 +16,14 @@ class LimitsOption {
   /// Call it once. Keeps a pointer to the option: the command must outlive this object.
   void add_to(CLI::App& command);
 
-  bool given() const { return option_->count() > 0; }
-
   /// The file of limits; empty = none.
   std::filesystem::path file() const { return file_; }
 
   /// Throws Error (failure) if the file of limits cannot be read or makes no sense.
-  void check() const { limits({}); }
+  void check() const { of({}); }
 
   /// The limits in the file; if none is given those of limits_of(). Throws as check().
-  CriteriaLimits limits(const ShellMesh& mesh) const;
+  CriteriaLimits of(const ShellMesh& mesh) const;
 
   /// Throws Error (failure) if the option is given and quads of the mesh fail. \param file of the mesh
   void hold(const std::filesystem::path& file, const ShellMesh& mesh) const;

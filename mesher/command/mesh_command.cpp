@@ -29,20 +29,9 @@ namespace quadrille::command {
 namespace {
 
 struct MeshArguments : RunArguments {
-  std::filesystem::path write_size_field;
   LimitsOption limits;
   bool thin = false, join = false;
 };
-
-void check_files(const MeshArguments& arguments) {
-  check_formats(arguments, arguments.outputs);
-  std::vector<NamedFile> inputs = model_inputs(arguments.input, arguments.settings.mesh.sizing);
-  inputs.push_back({"--limits", arguments.limits.file()});
-  require_usable({inputs, with_outputs(arguments.outputs,
-                                       {{"--report", arguments.report},
-                                        {"--picture", arguments.picture, ".png"},
-                                        {"--write-size-field", arguments.write_size_field, ".vdb"}})});
-}
 
 /// Draws a middle surface that was refused, as far as it can be made and meshed, with the edges marked that
 /// end inside the material. \return what the picture shows, in words; empty = there is none.
@@ -51,11 +40,12 @@ std::string draw_refused(const CadModel& model, MidSurfaceOptions options, const
   options.partial = true;
   MeshOptions meshing = arguments.settings.mesh;
   meshing.partial = true;
+  meshing.write_size_field.clear();
   try {
     const MidSurface middle = midsurface(model, options, context);
     ShellMesh result = mesh(middle, meshing, context);
     result.marked_edges = middle.stray_edges;
-    draw_apart(arguments.picture, context, [&] { write_picture(result, arguments.picture); });
+    draw_apart(result, arguments.picture, context);
     return fmt::format("{} shows it{}", arguments.picture.string(),
                        middle.stray_edges.empty() ? "" : ", with edges inside the material in red");
   } catch (const Error& error) {
@@ -239,7 +229,8 @@ void tell_quality(const ShellMesh& result, const Measured& measured, const Meshe
 }
 
 void run(const MeshArguments& arguments) {
-  check_files(arguments);
+  check_formats(arguments);
+  require_usable(arguments, "IN", {{"--limits", arguments.limits.file()}});
   Settings settings = arguments.settings;
   std::vector<Stage> stages{Stage::read,  Stage::size,     Stage::sample, Stage::mesh,
                             Stage::slide, Stage::assemble, Stage::write};
@@ -254,8 +245,7 @@ void run(const MeshArguments& arguments) {
   if (!middle) settings = with_pieces(settings, model);
   check(settings, model);
   MeshOptions options = settings.mesh;
-  options.order = order_of(arguments, arguments.outputs);
-  options.write_size_field = arguments.write_size_field;
+  options.order = order_of(arguments);
   const bool is_told = !arguments.quiet || !arguments.report.empty();
   options.check_curved_areas = is_told;  // whose differences are warnings only
   std::optional<SizeFidelity> sizes;
@@ -277,30 +267,22 @@ void run(const MeshArguments& arguments) {
 }  // namespace
 
 void add_mesh_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("mesh", "mesh a CAD model with quads");
-  auto arguments = std::make_shared<MeshArguments>();
-  command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
+  auto [command, arguments] = add_command<MeshArguments>(app, "mesh", "mesh a CAD model with quads");
+  add_model(command, arguments);
+  add_outputs(command, arguments, "mesh file: " + written_endings("or"));
+  add_settings(command, arguments);
+  command.get_option("--elements-per-diagonal")->excludes("--size");
+  command.add_option("--write-size-field", arguments.settings.mesh.write_size_field,
+                     "write the sizing field of the mesh as OpenVDB grids (.vdb)");
+  command.add_option("--report", arguments.report, "write counts, quality and times as JSON");
+  command.add_option("--picture", arguments.picture, "draw the mesh into a .png");
+  command.add_flag("--thin", arguments.thin,
+                   "mesh the middle surface of thin solids, with a group for each thickness");
   command
-      ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: " + written_endings("or") + "; may be given more than once")
-      ->required()
-      ->allow_extra_args(false);
-  add_settings(*command, *arguments);
-  command->get_option("--elements-per-diagonal")->excludes("--size");
-  command->add_option("--write-size-field", arguments->write_size_field,
-                      "write the sizing field of the mesh as OpenVDB grids (.vdb)");
-  command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
-  command->add_flag("--thin", arguments->thin,
-                    "mesh the middle surface of thin solids, with a group for each thickness");
-  command
-      ->add_flag("--join", arguments->join, "with --thin: treat solids that touch as one part, as if welded")
+      .add_flag("--join", arguments.join, "with --thin: treat solids that touch as one part, as if welded")
       ->needs("--thin");
-  command->add_flag("--end-with-input", arguments->end_with_input,
-                    "end the work when standard input closes, for programs that start this one");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
-  arguments->limits.add_to(*command);
-  command->callback([arguments] { run(*arguments); });
+  add_run_options(command, arguments, "no progress, no quality table");
+  arguments.limits.add_to(command);
 }
 
 }  // namespace quadrille::command

@@ -10,17 +10,13 @@ namespace quadrille::command {
 
 namespace {
 
-struct Arguments : RunArguments {
+struct MidsurfaceArguments : RunArguments {
   MidSurfaceOptions options;
 };
 
-void run(const Arguments& arguments) {
-  for (const std::filesystem::path& output : arguments.outputs) {
-    if (!is_midsurface_format(output))
-      throw usage_error(
-          "-o", fmt::format("{}: a middle surface is written as .brep, .step or .json", output.string()));
-  }
-  require_usable({{{"IN", arguments.input}}, with_outputs(arguments.outputs, {})});
+void run(const MidsurfaceArguments& arguments) {
+  for (const std::filesystem::path& output : arguments.outputs) check_midsurface_format(output);
+  require_usable(arguments, "IN");
   Work work(arguments, {Stage::read, Stage::midsurface});
   const CadModel model = read_model(arguments, "finding the middle surface of", work);
   const MidSurface middle = midsurface(model, arguments.options, work.context);
@@ -37,25 +33,16 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_midsurface_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "midsurface", "turn a thin solid into the surface in its middle, with its thickness");
-  auto arguments = std::make_shared<Arguments>();
-  arguments->settings.threads = 1;
-  command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "the middle surface as .brep or .step, the data of its faces as .json; may be given more "
-                   "than once")
-      ->required()
-      ->allow_extra_args(false);
-  command->add_flag("--partial", arguments->options.partial,
-                    "if the solid is thin only in places, write the walls that were found");
-  command->add_flag("--join", arguments->options.join, "treat solids that touch as one part, as if welded");
-  add_settings(*command, *arguments, {"read_time_limit", "time_limit"});
-  command->add_flag("--end-with-input", arguments->end_with_input,
-                    "end the work when standard input closes, for programs that start this one");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
-  command->callback([arguments] { run(*arguments); });
+  auto [command, arguments] = add_command<MidsurfaceArguments>(
+      app, "midsurface", "turn a thin solid into the surface in its middle, with its thickness");
+  arguments.settings.threads = 1;
+  add_model(command, arguments);
+  add_outputs(command, arguments, "the middle surface as .brep or .step, the data of its faces as .json");
+  command.add_flag("--partial", arguments.options.partial,
+                   "if the solid is thin only in places, write the walls that were found");
+  command.add_flag("--join", arguments.options.join, "treat solids that touch as one part, as if welded");
+  add_settings(command, arguments, {"read_time_limit", "time_limit"});
+  add_run_options(command, arguments, "no progress, no table");
 }
 
 }  // namespace quadrille::command

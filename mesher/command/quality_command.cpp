@@ -9,30 +9,38 @@
 
 namespace quadrille::command {
 
+namespace {
+
+struct QualityArguments {
+  std::filesystem::path input;
+  double size_min = 0;
+  LimitsOption limits;
+};
+
+void run(const QualityArguments& arguments) {
+  require_readable(arguments.input);
+  arguments.limits.check();
+  ShellMesh mesh = read_mesh(arguments.input);
+  mesh.size_min = arguments.size_min;
+  const CriteriaLimits limits = arguments.limits.of(mesh);
+  const QualitySummary summary = quality(mesh);
+  print(quality_table(summary) + "\n" + quality_histogram(summary) + "\n" + valence_table(summary) + "\n" +
+        criteria_table(check_criteria(mesh, limits), limits));
+  arguments.limits.hold(arguments.input, mesh);
+}
+
+}  // namespace
+
 void add_quality_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "quality", "measure a mesh: counts, q, Jacobians, valence, and quads that fail the industry criteria");
-  auto input = std::make_shared<std::filesystem::path>();
-  auto limits_option = std::make_shared<LimitsOption>();
-  command->add_option("MESH", *input, "mesh file: " + read_endings("or"))->required();
-  limits_option->add_to(*command);
-  auto size_min = std::make_shared<double>(0);
+  auto [command, arguments] = add_command<QualityArguments>(
+      app, "quality",
+      "measure a mesh: counts, q, Jacobians, valence, and quads that fail the industry criteria");
+  command.add_option("MESH", arguments.input, "mesh file: " + read_endings("or"))->required();
+  arguments.limits.add_to(command);
   command
-      ->add_option("--size-min", *size_min,
-                   "minimum size of the mesh, in mm: sides shorter than half of it fail")
+      .add_option("--size-min", arguments.size_min,
+                  "minimum size of the mesh, in mm: sides shorter than half of it fail")
       ->check(number(positive));
-  command->callback([input, limits_option, size_min] {
-    require_readable(*input);
-    limits_option->check();
-    ShellMesh mesh = read_mesh(*input);
-    mesh.size_min = *size_min;
-    const CriteriaLimits limits = limits_option->limits(mesh);
-    const QualitySummary summary = quality(mesh);
-    const CriteriaSummary criteria = check_criteria(mesh, limits);
-    print(quality_table(summary) + "\n" + quality_histogram(summary) + "\n" + valence_table(summary) + "\n" +
-          criteria_table(criteria, limits));
-    limits_option->hold(*input, mesh);
-  });
 }
 
 }  // namespace quadrille::command

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "geometry/base/text_parts.hpp"
 #include "mesher/command/command.hpp"
@@ -18,16 +17,14 @@ namespace quadrille::command {
 
 namespace {
 
-struct RecombineArguments : RunArguments {
-  std::filesystem::path output;
+struct RecombineArguments : SurfaceArguments {
   std::uint64_t seed = 1;
   bool no_improve = false;
-  std::optional<double> merge, feature_angle;
 };
 
 void run(const RecombineArguments& arguments) {
-  check_format(arguments.output, 4);
-  require_usable({{{"TRI", arguments.input}}, {{"-o", arguments.output}, {"--report", arguments.report}}});
+  check_format(arguments.outputs.front(), 4);
+  require_usable(arguments, "TRI");
   const std::string name = arguments.input.string();
   Work work(arguments, {Stage::read, Stage::color, Stage::recombine, Stage::improve, Stage::write});
   ExecutionContext& context = work.context;
@@ -38,8 +35,8 @@ void run(const RecombineArguments& arguments) {
     input = read_mesh(arguments.input, &notes);
   }
   FromTrianglesOptions options;
-  options.merge = arguments.merge.value_or(-1);
-  options.feature_angle = arguments.feature_angle.value_or(usual_feature_angle(arguments.input, input));
+  options.merge = arguments.merge;
+  options.feature_angle = arguments.feature_angle(input);
   options.improve = !arguments.no_improve;
   options.recombine.method = arguments.no_improve ? Method::paper : Method::quality;
   options.recombine.seed = arguments.seed;
@@ -52,7 +49,7 @@ void run(const RecombineArguments& arguments) {
                                     name));
   {
     const StageTimer timer(context, Stage::write);
-    write_mesh(result, arguments.output, arguments.settings.write);
+    write_mesh(result, arguments.outputs.front(), arguments.settings.write);
   }
   const MeshMeasures measures = measure(result);
   if (!arguments.report.empty())
@@ -72,23 +69,23 @@ std::string seed_problem(const std::string& text) {
 }  // namespace
 
 void add_recombine_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("recombine", "turn a triangulation into quads");
-  auto arguments = std::make_shared<RecombineArguments>();
+  auto [command, arguments] =
+      add_command<RecombineArguments>(app, "recombine", "turn a triangulation into quads");
   command
-      ->add_option("TRI", arguments->input,
-                   "mesh of triangles, or of triangles and quads: " + read_endings("or"))
+      .add_option("TRI", arguments.input,
+                  "mesh of triangles, or of triangles and quads: " + read_endings("or"))
       ->required();
-  command->add_option("-o,--output", arguments->output, "mesh file: " + written_endings("or"))->required();
-  command->add_option("--seed", arguments->seed, "seed of the random choices of --no-improve (default 1)")
+  command.add_option("-o,--output", arguments.outputs, "mesh file: " + written_endings("or"))
+      ->required()
+      ->expected(1);
+  command.add_option("--seed", arguments.seed, "seed of the random choices of --no-improve (default 1)")
       ->check([](const std::string& text) { return seed_problem(text); });
-  command->add_flag("--no-improve", arguments->no_improve,
-                    "the method of the 2018 paper, unmodified: color, swap, remove; no node moves");
-  add_surface_options(*command, arguments->feature_angle, arguments->merge,
-                      "on their common side is kept as an edge; 0 = none");
-  command->add_option("--report", arguments->report, "write counts, quality and times as JSON");
-  add_settings(*command, *arguments, {"threads", "msh_version", "element", "scale", "groups"});
-  command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
-  command->callback([arguments] { run(*arguments); });
+  command.add_flag("--no-improve", arguments.no_improve,
+                   "the method of the 2018 paper, unmodified: color, swap, remove; no node moves");
+  add_surface_options(command, arguments, "on their common side is kept as an edge; 0 = none");
+  command.add_option("--report", arguments.report, "write counts, quality and times as JSON");
+  add_settings(command, arguments, {"threads", "msh_version", "element", "scale", "groups"});
+  command.add_flag("--quiet", arguments.quiet, "no progress, no quality table");
 }
 
 }  // namespace quadrille::command

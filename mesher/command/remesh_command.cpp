@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/threads.hpp"
@@ -18,17 +17,9 @@ namespace quadrille::command {
 
 namespace {
 
-struct RemeshArguments : RunArguments {
-  std::optional<double> merge, feature_angle;
+struct RemeshArguments : SurfaceArguments {
   LimitsOption limits;
 };
-
-void check_files(const RemeshArguments& arguments) {
-  check_formats(arguments, arguments.outputs);
-  require_usable({{{"SURFACE", arguments.input}, {"--limits", arguments.limits.file()}},
-                  with_outputs(arguments.outputs,
-                               {{"--report", arguments.report}, {"--picture", arguments.picture, ".png"}})});
-}
 
 nlohmann::json fidelity_json(const RemeshFidelity& fidelity) {
   const auto distance = [](const RemeshFidelity::Distance& d) {
@@ -66,7 +57,8 @@ void tell(const ShellMesh& mesh, const RemeshFidelity& fidelity, const std::vect
 }
 
 void run(const RemeshArguments& arguments) {
-  check_files(arguments);
+  check_formats(arguments);
+  require_usable(arguments, "SURFACE", {{"--limits", arguments.limits.file()}});
   Work work(arguments,
             {Stage::read, Stage::sample, Stage::triangulate, Stage::mesh, Stage::assemble, Stage::write});
   ExecutionContext& context = work.context;
@@ -79,10 +71,10 @@ void run(const RemeshArguments& arguments) {
   }();
   RemeshOptions options;
   options.size = arguments.settings.mesh.sizing.size;
-  options.order = order_of(arguments, arguments.outputs);
+  options.order = order_of(arguments);
   options.force = arguments.settings.mesh.force;
-  options.merge = arguments.merge.value_or(-1);
-  options.feature_angle = arguments.feature_angle.value_or(usual_feature_angle(arguments.input, input));
+  options.merge = arguments.merge;
+  options.feature_angle = arguments.feature_angle(input);
   RemeshFidelity fidelity;
   const ShellMesh mesh =
       made_from(input, arguments.input, [&] { return remesh(input, options, &fidelity, notes, context); });
@@ -95,30 +87,22 @@ void run(const RemeshArguments& arguments) {
 }  // namespace
 
 void add_remesh_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("remesh", "remesh a triangulated surface, such as a scan, with quads");
-  auto arguments = std::make_shared<RemeshArguments>();
-  command->add_option("SURFACE", arguments->input, "triangles, or triangles and quads: " + read_endings("or"))
+  auto [command, arguments] = add_command<RemeshArguments>(
+      app, "remesh", "remesh a triangulated surface, such as a scan, with quads");
+  command.add_option("SURFACE", arguments.input, "triangles, or triangles and quads: " + read_endings("or"))
       ->required();
-  command
-      ->add_option("-o,--output", arguments->outputs,
-                   "mesh file: " + written_endings("or") + "; may be given more than once")
-      ->required()
-      ->allow_extra_args(false);
-  add_settings(*command, *arguments,
+  add_outputs(command, arguments, "mesh file: " + written_endings("or"));
+  add_settings(command, arguments,
                {"size", "order", "force", "time_limit", "threads", "msh_version", "nodes", "element", "scale",
                 "groups"});
-  command->get_option("--size")->required()->description("target edge length, in mm");
-  add_surface_options(*command, arguments->feature_angle, arguments->merge,
+  command.get_option("--size")->required()->description("target edge length, in mm");
+  add_surface_options(command, arguments,
                       "on they belong to different faces; 0 = faces do not depend on angles");
-  command->add_option("--report", arguments->report,
-                      "write counts, quality, distances to the surface and times as JSON");
-  command->add_option("--picture", arguments->picture, "draw the mesh into a .png");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no quality table");
-  command->add_flag("--end-with-input", arguments->end_with_input,
-                    "end the work when standard input closes, for programs that start this one");
-  arguments->limits.add_to(*command);
-  command->callback([arguments] { run(*arguments); });
+  command.add_option("--report", arguments.report,
+                     "write counts, quality, distances to the surface and times as JSON");
+  command.add_option("--picture", arguments.picture, "draw the mesh into a .png");
+  add_run_options(command, arguments, "no progress, no quality table");
+  arguments.limits.add_to(command);
 }
 
 }  // namespace quadrille::command

@@ -30,17 +30,10 @@ int complain(std::string message, ExitCode code) {
 }
 
 int complain(const Error& error) {
-  switch (error.kind()) {
-    case Error::Kind::usage:
-      return complain(with_options(error.what()), bad_use);
-    case Error::Kind::cancelled:
-      return complain(error.what(), work_cancelled);
-    case Error::Kind::failure:
-      if (error.subject() == ExecutionContext::time_subject)
-        return complain(error.what() + left_behind(), work_failed);
-      break;
-  }
-  return complain(with_options(error.what()), work_failed);
+  if (error.kind() == Error::Kind::cancelled) return complain(error.what(), work_cancelled);
+  if (error.kind() == Error::Kind::usage) return complain(with_options(error.what()), bad_use);
+  const bool is_over = error.subject() == ExecutionContext::time_subject;
+  return complain(is_over ? error.what() + left_behind() : with_options(error.what()), work_failed);
 }
 
 void add_commands(CLI::App& app) {

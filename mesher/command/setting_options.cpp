@@ -34,22 +34,24 @@ std::string help_of(const Setting& setting) {
   return text;
 }
 
-void add_setting(CLI::App& command, const Setting& setting, GivenSettings& target) {
+/// Whether the setting takes a list, of which each value may be an argument of its own.
+bool is_list(const Setting& setting) {
+  const std::string_view kind = setting.kind();
+  return kind == "names" || kind == "sizes" || kind == "words" || kind == "entries";
+}
+
+void add_setting(CLI::App& command, const Setting& setting, RunArguments& target) {
   const std::string option = fmt::format("--{}", setting.option);
   const auto take = [&target, &setting](const std::vector<std::string>& texts) {
     assign(target.settings, setting, parse(setting, texts));
     target.given.insert(setting.name);
   };
-  const std::string_view kind = setting.kind();
-  if (kind == "flag") {
+  if (setting.kind() == "flag") {
     command.add_flag_callback(
         option, [take] { take({"true"}); }, help_of(setting));
-  } else if (kind == "names" || kind == "sizes" || kind == "words") {
+  } else if (is_list(setting)) {
     command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
-        ->delimiter(',')
-        ->allow_extra_args(false);
-  } else if (kind == "entries") {  // an entry contains commas itself
-    command.add_option_function<std::vector<std::string>>(option, take, help_of(setting))
+        ->delimiter(setting.kind() == "entries" ? '\0' : ',')  // an entry contains commas itself
         ->allow_extra_args(false);
   } else {
     command.add_option_function<std::string>(
@@ -78,9 +80,11 @@ const Setting* list_of(const std::string& argument) {
   const auto& all = all_settings();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Setting& s) { return s.option == option; });
-  if (found == all.end()) return nullptr;
-  const std::string_view kind = found->kind();
-  return kind == "names" || kind == "sizes" || kind == "words" || kind == "entries" ? &*found : nullptr;
+  return found != all.end() && is_list(*found) ? &*found : nullptr;
+}
+
+bool is_inp(const std::filesystem::path& path) {
+  return lower_ending(path) == ".inp";
 }
 
 }  // namespace
@@ -121,35 +125,44 @@ std::vector<std::string> with_options_repeated(const std::vector<std::string>& a
   return result;
 }
 
-void add_settings(CLI::App& command, GivenSettings& target, const std::set<std::string_view>& names) {
+void add_settings(CLI::App& command, RunArguments& target, const std::set<std::string_view>& names) {
   for (const Setting& setting : all_settings()) {
     if (names.empty() || names.count(setting.name) > 0) add_setting(command, setting, target);
   }
 }
 
-namespace {
-
-bool is_inp(const std::filesystem::path& path) {
-  return lower_ending(path) == ".inp";
+void add_model(CLI::App& command, RunArguments& target) {
+  command.add_option("IN", target.input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
 }
 
-}  // namespace
+CLI::Option* add_outputs(CLI::App& command, RunArguments& target, const std::string& help) {
+  return command.add_option("-o,--output", target.outputs, help + "; may be given more than once")
+      ->required()
+      ->allow_extra_args(false);
+}
 
-int order_of(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
-  if (given.given.count("order") > 0) return given.settings.mesh.order;
-  if (given.settings.write.quad_nodes == 9) return 2;
-  const int of_element = quadrille::order_of(given.settings.write.element);
+void add_run_options(CLI::App& command, RunArguments& target, const std::string& quiet) {
+  command.add_flag("--end-with-input", target.end_with_input,
+                   "end the work when standard input closes, for programs that start this one");
+  command.add_flag("--quiet", target.quiet, quiet);
+}
+
+int order_of(const RunArguments& arguments) {
+  if (arguments.given.count("order") > 0) return arguments.settings.mesh.order;
+  if (arguments.settings.write.quad_nodes == 9) return 2;
+  const int of_element = quadrille::order_of(arguments.settings.write.element);
+  const std::vector<std::filesystem::path>& outputs = arguments.outputs;
   if (of_element != 0 && std::any_of(outputs.begin(), outputs.end(), is_inp)) return of_element;
   return std::any_of(outputs.begin(), outputs.end(), is_solver_format) ? 2 : 1;
 }
 
-void check_formats(const GivenSettings& given, const std::vector<std::filesystem::path>& outputs) {
-  const int quad_nodes = given.settings.write.quad_nodes, order = order_of(given, outputs);
+void check_formats(const RunArguments& arguments) {
+  const int quad_nodes = arguments.settings.write.quad_nodes, order = order_of(arguments);
   if (quad_nodes == 9 && order == 1)
     throw usage_error("nodes", "`nodes` 9 is for quads of second order: leave out `order` 1");
-  for (const std::filesystem::path& output : outputs) {
+  for (const std::filesystem::path& output : arguments.outputs) {
     check_format(output, order == 1 ? 4 : quad_nodes);
-    if (is_inp(output)) check_element(given.settings.write.element, order);
+    if (is_inp(output)) check_element(arguments.settings.write.element, order);
   }
 }
 

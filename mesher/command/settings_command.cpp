@@ -12,6 +12,10 @@ namespace quadrille::command {
 
 namespace {
 
+struct SettingsArguments {
+  bool json = false, tables = false;
+};
+
 std::string describe() {
   std::string text = fmt::format("{:<22} {:<25} {}\n", "Python", "command", "what it is");
   for (const Setting& setting : all_settings())
@@ -19,18 +23,21 @@ std::string describe() {
   return text;
 }
 
+void run(const SettingsArguments& arguments) {
+  print(arguments.tables ? tables_json() + "\n"
+        : arguments.json ? settings_table().dump(1) + "\n"
+                         : describe());
+}
+
 }  // namespace
 
 void add_settings_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("settings", "list the settings of mesh, by all their names");
-  auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "all properties of each, as JSON");
-  auto tables = std::make_shared<bool>(false);
-  command->add_flag("--tables", *tables, "instead, the mesh formats and the quality criteria, as JSON")
+  auto [command, arguments] =
+      add_command<SettingsArguments>(app, "settings", "list the settings of mesh, by all their names");
+  command.add_flag("--json", arguments.json, "all properties of each, as JSON");
+  command
+      .add_flag("--tables", arguments.tables, "instead, the mesh formats and the quality criteria, as JSON")
       ->excludes("--json");
-  command->callback([as_json, tables] {
-    print(*tables ? tables_json() + "\n" : *as_json ? settings_table().dump(1) + "\n" : describe());
-  });
 }
 
 }  // namespace quadrille::command

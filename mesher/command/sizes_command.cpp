@@ -26,7 +26,6 @@ namespace {
 using json = nlohmann::ordered_json;
 
 struct SizesArguments : RunArguments {
-  std::filesystem::path write_size_field;
   bool count_only = false;
   double wanted_quads = 0;  // 0 = the size is given
 };
@@ -37,10 +36,7 @@ void check_files(const SizesArguments& arguments) {
       throw usage_error("-o",
                         fmt::format("-o: the file name must end in .vtu or .json, not {}", output.string()));
   }
-  require_usable(
-      {model_inputs(arguments.input, arguments.settings.mesh.sizing),
-       with_outputs(arguments.outputs, {{"--report", arguments.report},
-                                        {"--write-size-field", arguments.write_size_field, ".vdb"}})});
+  require_usable(arguments, "IN");
 }
 
 json summary_of(const SizeMap& map) {
@@ -152,56 +148,42 @@ void run(const SizesArguments& arguments) {
   context.check();
   settings = with_pieces(settings, model);
   check(settings, model);
-  MeshOptions options = settings.mesh;
-  if (arguments.count_only) return count(model, options, arguments, context);
-  options.write_size_field = arguments.write_size_field;
-  const SizeMap map = size_map(model, options, context);
+  if (arguments.count_only) return count(model, settings.mesh, arguments, context);
+  const SizeMap map = size_map(model, settings.mesh, context);
   write_outputs(map, arguments, work);
   for (const int face : map.missing)
     say("warning: Face{} is not shown: OpenCASCADE cannot triangulate it", face);
   if (!arguments.quiet) print(table_of(map));
 }
 
-std::set<std::string_view> settings_of_meshing() {
-  std::set<std::string_view> names;
-  for (const Setting& setting : all_settings()) {
-    if (setting.use != Setting::Use::write) names.insert(setting.name);
-  }
-  return names;
-}
-
 }  // namespace
 
 void add_sizes_command(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("sizes", "show the sizes that a mesh would have, and where they come from");
-  auto arguments = std::make_shared<SizesArguments>();
-  command->add_option("IN", arguments->input, "CAD file: .step, .stp, .iges, .igs, .brep")->required();
+  auto [command, arguments] = add_command<SizesArguments>(
+      app, "sizes", "show the sizes that a mesh would have, and where they come from");
+  add_model(command, arguments);
+  add_outputs(command, arguments, "the surface with sizes and their sources: .vtu or .json")->required(false);
+  command.add_option("--write-size-field", arguments.settings.mesh.write_size_field,
+                     "write the sizes as OpenVDB grids (.vdb)");
+  command.add_option("--report", arguments.report, "write area, quads and sizes of each source as JSON");
   command
-      ->add_option("-o,--output", arguments->outputs,
-                   "the surface with sizes and their sources: .vtu or .json; may be given more than once")
-      ->allow_extra_args(false);
-  command->add_option("--write-size-field", arguments->write_size_field,
-                      "write the sizes as OpenVDB grids (.vdb)");
-  command->add_option("--report", arguments->report, "write area, quads and sizes of each source as JSON");
-  auto* count_only =
-      command->add_flag("--count-only", arguments->count_only,
-                        "only print the expected number of quads; the report lists it by face");
-  for (const auto* output : {"--output", "--write-size-field"})
-    count_only->excludes(command->get_option(output));
-  add_settings(*command, *arguments, settings_of_meshing());
-  command->get_option("--elements-per-diagonal")->excludes("--size");
+      .add_flag("--count-only", arguments.count_only,
+                "only print the expected number of quads; the report lists it by face")
+      ->excludes("--output")
+      ->excludes("--write-size-field");
+  std::set<std::string_view> of_meshing;
+  for (const Setting& setting : all_settings())
+    if (setting.use != Setting::Use::write) of_meshing.insert(setting.name);
+  add_settings(command, arguments, of_meshing);
+  command.get_option("--elements-per-diagonal")->excludes("--size");
   command
-      ->add_option("--wanted-quads", arguments->wanted_quads,
-                   "with --count-only: find the size that gives about this many quads")
+      .add_option("--wanted-quads", arguments.wanted_quads,
+                  "with --count-only: find the size that gives about this many quads")
       ->needs("--count-only")
       ->excludes("--size")
       ->excludes("--elements-per-diagonal")
       ->check(number(positive));
-  command->add_flag("--end-with-input", arguments->end_with_input,
-                    "end the work when standard input closes, for programs that start this one");
-  command->add_flag("--quiet", arguments->quiet, "no progress, no table");
-  command->callback([arguments] { run(*arguments); });
+  add_run_options(command, arguments, "no progress, no table");
 }
 
 }  // namespace quadrille::command

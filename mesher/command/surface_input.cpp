@@ -9,27 +9,25 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/execution_context.hpp"
 #include "geometry/base/file_access.hpp"
-#include "mesher/command/setting_options.hpp"
 
 namespace quadrille::command {
 
-double usual_feature_angle(const std::filesystem::path& file, const ShellMesh& mesh) {
+double SurfaceArguments::feature_angle(const ShellMesh& mesh) const {
   constexpr double usual = 40;
   const std::vector<int>& faces = mesh.triangle_faces.empty() ? mesh.quad_faces : mesh.triangle_faces;
   const bool several =
       std::any_of(faces.begin(), faces.end(), [&](int face) { return face != faces.front(); });
-  return lower_ending(file) == ".msh" && several ? 0 : usual;
+  return given_angle.value_or(lower_ending(input) == ".msh" && several ? 0 : usual);
 }
 
-void add_surface_options(CLI::App& command, std::optional<double>& feature_angle,
-                         std::optional<double>& merge, const std::string& fold) {
+void add_surface_options(CLI::App& command, SurfaceArguments& arguments, const std::string& fold) {
   command
-      .add_option("--feature-angle", feature_angle,
+      .add_option("--feature-angle", arguments.given_angle,
                   "angle in degrees between the normals of neighbors from which " + fold +
                       " (default 40, none in .msh files with several faces)")
       ->check(number({0, 180}));
   command
-      .add_option("--merge", merge,
+      .add_option("--merge", arguments.merge,
                   "merge nodes at most this far apart, in mm; 0 = only at the same position")
       ->check(number({}));
 }

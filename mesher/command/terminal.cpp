@@ -31,15 +31,14 @@ void say_line(std::string_view line) {
   std::fwrite(text.data(), 1, text.size(), stderr);  // nobody can be told that this fails
 }
 
-ProgressDisplay::ProgressDisplay(bool quiet)
-    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), last_(std::chrono::steady_clock::now()) {}
+ProgressDisplay::ProgressDisplay()
+    : terminal_(::isatty(STDERR_FILENO) == 1), last_(std::chrono::steady_clock::now()) {}
 
 ProgressDisplay::~ProgressDisplay() {
   if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
 }
 
 bool ProgressDisplay::show(std::string_view stage, double fraction) {
-  if (quiet_) return true;
   const auto interval = std::chrono::milliseconds(terminal_ ? 100 : 500);
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < interval) return true;

@@ -73,15 +73,15 @@ nlohmann::json midsurface_json(const MidSurface& middle) {
           {"problems", middle.problems}};
 }
 
-bool is_midsurface_format(const std::filesystem::path& path) {
-  return std::find(endings.begin(), endings.end(), lower_ending(path)) != endings.end();
+void check_midsurface_format(const std::filesystem::path& path) {
+  if (std::find(endings.begin(), endings.end(), lower_ending(path)) == endings.end())
+    throw usage_error(path.string(),
+                      fmt::format("{}: a middle surface is written as .brep, .step or .json", path.string()));
 }
 
 void write_midsurface(const MidSurface& middle, const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  if (!is_midsurface_format(path))
-    throw usage_error(path.string(),
-                      fmt::format("{}: a middle surface is written as .brep, .step or .json", path.string()));
+  check_midsurface_format(path);
   if (ending == ".json")
     write_file(path, midsurface_json(middle).dump(2) + "\n");
   else

@@ -18,7 +18,7 @@ QUADRILLE_API nlohmann::json midsurface_json(const MidSurface& middle);
 /// be written.
 QUADRILLE_API void write_midsurface(const MidSurface& middle, const std::filesystem::path& path);
 
-/// True if write_midsurface knows the file's ending.
-QUADRILLE_API bool is_midsurface_format(const std::filesystem::path& path);
+/// Throws Error (usage) if write_midsurface() does not know the file's ending.
+QUADRILLE_API void check_midsurface_format(const std::filesystem::path& path);
 
 }  // namespace quadrille

@@ -107,8 +107,7 @@ TEST(SmallFeatures, FollowTheReach) {
     options.sizing.size_min = 1;
     options.reach = reach;
     options.keep_features = keep;
-    ExecutionContext context(1);
-    return small_features(model, options, context);
+    return small_features(model, options);
   };
   const SmallFeatures usual = found(0, false);
   ASSERT_FALSE(usual.suppressed_features.empty());
