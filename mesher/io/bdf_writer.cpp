@@ -63,13 +63,12 @@ void write_set(int set, const std::string& name, const char* of_what, const std:
 
 void write_sets(const OutputMesh& mesh, TextWriter& out) {
   int set = 0;
-  for (const NamedGroup& group : mesh.groups(2))
-    write_set(++set, group.name, "elements", OutputMesh::numbers_of(mesh.members(2, group)), out);
-  for (const int dimension : {1, 0})
-    for (const NamedGroup& group : mesh.groups(dimension))
+  mesh.for_each_group([&](int dimension, const NamedGroup& group) {
+    if (dimension == 2)
+      write_set(++set, group.name, "elements", mesh.element_numbers(dimension, group), out);
+    else
       write_set(++set, group.name, "grids", mesh.node_numbers(dimension, group), out);
-  for (const ThicknessGroup& group : mesh.thicknesses())
-    write_set(++set, group.name, "elements", OutputMesh::numbers_of(group.members), out);
+  });
 }
 
 /// Property numbers are positive: elements without a face get the number after the last face.
@@ -92,7 +91,7 @@ void write_properties(const OutputMesh& mesh, TextWriter& out) {
 }
 
 void write_element(const OutputMesh& mesh, int shell, TextWriter& out) {
-  const ElementNodes element = mesh.shell_nodes(shell);
+  const ElementNodes element = mesh.element_nodes(2, shell);
   out << element.type().bdf << "  ";
   out.padded(shell + 1, narrow);
   out.padded(property(mesh, mesh.face(shell)), narrow);

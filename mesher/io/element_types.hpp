@@ -12,6 +12,9 @@ enum class ElementShape { point, line, triangle, quad };
 constexpr int dimension_of(ElementShape shape) {
   return std::min(static_cast<int>(shape), 2);
 }
+constexpr int corner_count(ElementShape shape) {
+  return static_cast<int>(shape) + 1;
+}
 
 /// A type of element, with the numbers and names that formats give it.
 struct ElementType {

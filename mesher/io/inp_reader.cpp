@@ -23,10 +23,6 @@ std::string without_blanks_and_quotes(std::string_view text) {
   return result;
 }
 
-std::string upper_trimmed(std::string_view text) {
-  return upper(without_blanks_and_quotes(text));
-}
-
 /// A set as in the file: numbers, and names of other sets.
 struct FileSet {
   struct Range {
@@ -39,22 +35,20 @@ struct FileSet {
 
 using Sets = std::map<std::string, FileSet>;  // by name in upper case
 
-std::string parameter(const std::string& text, const std::string& key) {
-  const std::size_t found = text.find("," + key + "=");
+/// A parameter of a keyword, as it is written. \param line without blanks and quotes
+std::string parameter(const std::string& line, const std::string& key) {
+  const std::size_t found = upper(line).find("," + key + "=");
   if (found == std::string::npos) return {};
   const std::size_t begin = found + key.size() + 2;
-  return text.substr(begin, text.find(',', begin) - begin);
+  return line.substr(begin, line.find(',', begin) - begin);
 }
 
 /// The set that the keyword's parameter names; null if there is no such parameter.
-FileSet* set_named(Sets& sets, std::string_view line, const std::string& text, const std::string& key) {
-  const std::string upper_name = parameter(text, key);
-  if (upper_name.empty()) return nullptr;
-  FileSet& set = sets[upper_name];
-  if (!set.name.empty()) return &set;
-  // `text` is the line in upper case without blanks and quotes; here the case is kept.
-  set.name =
-      without_blanks_and_quotes(line).substr(text.find("," + key + "=") + key.size() + 2, upper_name.size());
+FileSet* set_named(Sets& sets, const std::string& line, const std::string& key) {
+  const std::string name = parameter(line, key);
+  if (name.empty()) return nullptr;
+  FileSet& set = sets[upper(name)];
+  if (set.name.empty()) set.name = name;
   return &set;
 }
 
@@ -77,61 +71,20 @@ std::string_view field(std::string_view& line) {
   return result;
 }
 
-/// The sets that make up a set, itself first. Sets that are not in the file are skipped.
-std::vector<const FileSet*> parts_of(const Sets& sets, const std::string& upper_name) {
+/// Calls `visit` for the ranges of a set and of the sets that make it up. Those that are not in the file are
+/// skipped.
+template <class Visit>
+void for_each_range(const Sets& sets, const std::string& upper_name, Visit&& visit) {
   std::vector<std::string> names{upper_name};
   std::set<std::string> known{upper_name};
-  std::vector<const FileSet*> parts;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = sets.find(names[i]);
     if (found == sets.end()) continue;
-    parts.push_back(&found->second);
+    for (const FileSet::Range& range : found->second.ranges) visit(range);
     for (const std::string& other : found->second.sets)
       if (known.insert(other).second) names.push_back(other);
   }
-  return parts;
 }
-
-/// Puts the members of a set into a group.
-void assign_set(MeshBuilder& builder, const std::string& file, const Sets& sets,
-                const std::string& upper_name, const char* what,
-                bool (MeshBuilder::*put)(std::int64_t, int)) {
-  const std::string& name = sets.at(upper_name).name;
-  const int group = builder.group(name, 0);
-  for (const FileSet* part : parts_of(sets, upper_name))
-    for (const FileSet::Range& range : part->ranges)
-      for (std::int64_t member = range.first; member <= range.last; member += range.step) {
-        if (!(builder.*put)(member, group))
-          throw failure(file, fmt::format("{}: the set {} holds {} {}, which the file does not define", file,
-                                          name, what, member));
-        if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
-      }
-}
-
-/// All sets of a file.
-struct FileSets {
-  Sets of_elements, of_nodes;
-
-  /// Whether our own files always contain this set: of everything, or of the elements with a certain side on
-  /// an edge. Such sets are written anew, so they are not read.
-  bool is_made_anew(const std::string& upper_name) const {
-    if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
-    const std::size_t side = upper_name.rfind("_SIDE");
-    return side != std::string::npos && side + 6 == upper_name.size() &&
-           of_nodes.count(upper_name.substr(0, side)) > 0;
-  }
-
-  /// Puts the members of the sets into groups of the mesh. \param file its name
-  void assign(MeshBuilder& builder, const std::string& file) const {
-    for (const auto& [name, set] : of_elements)
-      if (!is_made_anew(name))
-        assign_set(builder, file, of_elements, name, "element", &MeshBuilder::put_element);
-    // Our files repeat a set of elements as the set of their nodes under the same name.
-    for (const auto& [name, set] : of_nodes)
-      if (!is_made_anew(name) && of_elements.count(name) == 0)
-        assign_set(builder, file, of_nodes, name, "node", &MeshBuilder::put_node);
-  }
-};
 
 class InpReader {
  public:
@@ -147,36 +100,63 @@ class InpReader {
         read_data(line);
     }
     finish_element();
-    sets_.assign(builder_, cursor_.name());
+    // Our files repeat a set of elements as the set of their nodes under the same name.
+    assign(of_elements_, "element", &MeshBuilder::put_element, {});
+    assign(of_nodes_, "node", &MeshBuilder::put_node, of_elements_);
     return builder_.finish(notes);
   }
 
  private:
   enum class Block { other, nodes, elements, set };
 
-  void begin_keyword(std::string_view line) {
+  /// Whether our own files always contain this set: of everything, or of the elements with a certain side on
+  /// an edge. Such sets are written anew, so they are not read.
+  bool is_made_anew(const std::string& upper_name) const {
+    if (upper_name == "NALL" || upper_name == "EALL" || upper_name == "EOTHER") return true;
+    const std::size_t side = upper_name.rfind("_SIDE");
+    return side != std::string::npos && side + 6 == upper_name.size() &&
+           of_nodes_.contains(upper_name.substr(0, side));
+  }
+
+  /// Puts the members of sets into groups of the mesh, but for the sets in `others`.
+  void assign(const Sets& sets, const char* what, bool (MeshBuilder::*put)(std::int64_t, int),
+              const Sets& others) {
+    for (const auto& [upper_name, set] : sets) {
+      if (is_made_anew(upper_name) || others.contains(upper_name)) continue;
+      const int group = builder_.group(set.name, 0);
+      for_each_range(sets, upper_name, [&, &name = set.name](const FileSet::Range& range) {
+        for (std::int64_t member = range.first; member <= range.last; member += range.step) {
+          if (!(builder_.*put)(member, group))
+            throw failure(cursor_.name(),
+                          fmt::format("{}: the set {} holds {} {}, which the file does not define",
+                                      cursor_.name(), name, what, member));
+          if (member > std::numeric_limits<std::int64_t>::max() - range.step) break;
+        }
+      });
+    }
+  }
+
+  void begin_keyword(std::string_view given) {
     finish_element();
-    const std::string text = upper_trimmed(line);
-    const auto keyword = std::string_view(text).substr(0, text.find(','));
+    const std::string line = without_blanks_and_quotes(given);
+    const std::string keyword = upper(line.substr(0, line.find(',')));
     block_ = Block::other;
     if (keyword == "*NODE") {
       block_ = Block::nodes;
-      set_ = set_named(sets_.of_nodes, line, text, "NSET");
+      set_ = set_named(of_nodes_, line, "NSET");
     } else if (keyword == "*ELEMENT") {
-      begin_elements(text);
-      set_ = set_named(sets_.of_elements, line, text, "ELSET");
+      begin_elements(upper(parameter(line, "TYPE")));
+      set_ = set_named(of_elements_, line, "ELSET");
     } else if (keyword == "*ELSET" || keyword == "*NSET") {
-      Sets& sets = keyword == "*ELSET" ? sets_.of_elements : sets_.of_nodes;
-      set_ = set_named(sets, line, text, std::string(keyword.substr(1)));
-      generated_ = text.find(",GENERATE") != std::string::npos;
+      set_ = set_named(keyword == "*ELSET" ? of_elements_ : of_nodes_, line, keyword.substr(1));
+      generated_ = upper(line).find(",GENERATE") != std::string::npos;
       if (set_ != nullptr) block_ = Block::set;
     } else if (keyword == "*INCLUDE") {
       throw cursor_.error_before("*INCLUDE is not supported: put the mesh into one file");
     }
   }
 
-  void begin_elements(const std::string& text) {
-    const std::string type = parameter(text, "TYPE");
+  void begin_elements(const std::string& type) {
     pending_ = {};
     const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
       return std::find(names.begin(), names.end(), type) != names.end();
@@ -288,7 +268,7 @@ class InpReader {
       if (const std::optional<std::int64_t> member = exactly<std::int64_t>(text))
         add_to_set(*member);
       else
-        set_->sets.push_back(upper_trimmed(text));
+        set_->sets.push_back(upper(without_blanks_and_quotes(text)));
     }
   }
 
@@ -300,7 +280,7 @@ class InpReader {
   int read_numbers_ = 0;    // numbers read of the current element, with its own number
   FileSet* set_ = nullptr;  // receives the nodes, elements or numbers that follow
   bool generated_ = false;
-  FileSets sets_;
+  Sets of_elements_, of_nodes_;
 };
 
 }  // namespace

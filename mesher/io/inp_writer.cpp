@@ -39,44 +39,37 @@ std::string element_type(const OutputMesh& mesh, InpElement element, bool quad) 
   return std::string(name_of(element));
 }
 
-/// Names of sets for Abaqus and CalculiX, which ignore case and tell sets of one kind apart only by their
-/// names.
-class SetNames {
- public:
-  explicit SetNames(const OutputMesh& mesh) {
-    for (const int dimension : {2, 1, 0})
-      for (const NamedGroup& group : mesh.groups(dimension))
-        names_[dimension].push_back(is_written_already(mesh, dimension, group) ? "" : free_name(group.name));
-  }
-  /// Name of a group; empty for nodes that are already the set of a face or edge with the same name.
-  /// \param group index in OutputMesh::groups(dimension).
-  const std::string& of(int dimension, std::size_t group) const { return names_[dimension][group]; }
+/// Whether nodes are already the set of a face or edge with the same name: files of other formats may have a
+/// group of elements and a group of its nodes under one name.
+bool is_written_already(const OutputMesh& mesh, const NamedGroup& nodes) {
+  for (const int other : {2, 1})
+    for (const NamedGroup& group : mesh.groups(other))
+      if (group.name == nodes.name && mesh.node_numbers(other, group) == mesh.node_numbers(0, nodes))
+        return true;
+  return false;
+}
 
- private:
-  /// Files of other formats may have a group of elements and a group of its nodes under one name.
-  static bool is_written_already(const OutputMesh& mesh, int dimension, const NamedGroup& nodes) {
-    if (dimension > 0) return false;
-    for (const int other : {2, 1})
-      for (const NamedGroup& group : mesh.groups(other))
-        if (group.name == nodes.name && mesh.node_numbers(other, group) == mesh.node_numbers(0, nodes))
-          return true;
-    return false;
-  }
+/// The names of OutputMesh::groups(), by dimension; empty for those that are written already.
+using SetNames = std::array<std::vector<std::string>, 3>;
 
-  std::string free_name(std::string name) {
-    constexpr std::size_t longest = 70;  // of 80, with room for a suffix
-    name.resize(std::min(name.size(), longest));
-    for (char& c : name)
-      if (std::isspace(static_cast<unsigned char>(c)) || c == ',' || c == '=' || c == '"' || c == '*')
-        c = '_';
-    std::string free = name;
-    for (int i = 2; !taken_.insert(upper(free)).second; ++i) free = name + '_' + std::to_string(i);
-    return free;
-  }
-
-  std::set<std::string> taken_{"NALL", "EALL", "EOTHER"};
-  std::vector<std::string> names_[3];
-};
+/// Names for Abaqus and CalculiX, which ignore case and tell sets of one kind apart only by their names.
+SetNames set_names(const OutputMesh& mesh) {
+  constexpr std::size_t longest = 70;  // of 80, with room for a suffix
+  SetNames names;
+  std::set<std::string> taken{"NALL", "EALL", "EOTHER"};
+  for (const int dimension : {2, 1, 0})
+    for (const NamedGroup& group : mesh.groups(dimension)) {
+      std::string& free = names[dimension].emplace_back();
+      if (dimension == 0 && is_written_already(mesh, group)) continue;
+      std::string name = group.name.substr(0, longest);
+      for (char& c : name)
+        if (std::isspace(static_cast<unsigned char>(c)) || c == ',' || c == '=' || c == '"' || c == '*')
+          c = '_';
+      free = name;
+      for (int i = 2; !taken.insert(upper(free)).second; ++i) free = name + '_' + std::to_string(i);
+    }
+  return names;
+}
 
 /// Writes the quads, or the triangles, of one face. \param set name of their set; empty = none.
 void write_elements(const OutputMesh& mesh, InpElement element, const CadGroup& group, bool quads,
@@ -90,7 +83,7 @@ void write_elements(const OutputMesh& mesh, InpElement element, const CadGroup& 
     const int shell = group.members[i];
     if (!is_wanted(shell)) return;
     to << shell + 1;
-    for (const int node : mesh.shell_nodes(shell)) to << ", " << mesh.number(node);
+    for (const int node : mesh.element_nodes(2, shell)) to << ", " << mesh.number(node);
     to << '\n';
   });
 }
@@ -103,7 +96,7 @@ void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames&
     std::string set = face.number > 0 ? "" : "Eother";
     for (std::size_t i = 0; i < groups.size() && set.empty(); ++i) {
       if (written[i] || groups[i].entities != std::vector<int>{face.number}) continue;
-      set = names.of(2, i);
+      set = names[2][i];
       written[i] = 1;
     }
     write_elements(mesh, type, face, true, set, out);
@@ -111,9 +104,8 @@ void write_element_sets(const OutputMesh& mesh, InpElement type, const SetNames&
   }
   out << "*ELSET, ELSET=Eall, GENERATE\n1, " << mesh.shell_count() << ", 1\n";
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const std::vector<int> shells = written[i] ? std::vector<int>() : mesh.members(2, groups[i]);
-    if (shells.empty()) continue;
-    write_set("ELSET", names.of(2, i), OutputMesh::numbers_of(shells), out);
+    if (written[i] || mesh.members(2, groups[i]).empty()) continue;
+    write_set("ELSET", names[2][i], mesh.element_numbers(2, groups[i]), out);
   }
 }
 
@@ -138,12 +130,12 @@ void write_side_sets(const OutputMesh& mesh, InpElement type, const SetNames& na
         if (elements[segment][side] > 0) set.push_back(elements[segment][side]);
       if (set.empty()) continue;
       std::sort(set.begin(), set.end());
-      const std::string name = fmt::format("{}_Side{}", names.of(1, i), side + 1);
+      const std::string name = fmt::format("{}_Side{}", names[1][i], side + 1);
       write_set("ELSET", name, set, out);
       surface += fmt::format("{}, S{}\n", name, side + 1);
     }
     if (lies_in_plane(type) && !surface.empty())
-      out << "*SURFACE, NAME=Surface_" << names.of(1, i) << ", TYPE=ELEMENT\n" << surface;
+      out << "*SURFACE, NAME=Surface_" << names[1][i] << ", TYPE=ELEMENT\n" << surface;
   }
 }
 
@@ -151,8 +143,7 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
   for (const int dimension : {2, 1, 0})
     for (std::size_t i = 0; i < mesh.groups(dimension).size(); ++i) {
       const std::vector<int> nodes = mesh.node_numbers(dimension, mesh.groups(dimension)[i]);
-      if (!nodes.empty() && !names.of(dimension, i).empty())
-        write_set("NSET", names.of(dimension, i), nodes, out);
+      if (!nodes.empty() && !names[dimension][i].empty()) write_set("NSET", names[dimension][i], nodes, out);
     }
 }
 
@@ -160,7 +151,7 @@ void write_node_sets(const OutputMesh& mesh, const SetNames& names, TextWriter& 
 void write_surfaces(const OutputMesh& mesh, const SetNames& names, TextWriter& out) {
   for (std::size_t i = 0; i < mesh.groups(2).size(); ++i) {
     if (mesh.members(2, mesh.groups(2)[i]).empty()) continue;
-    out << "*SURFACE, NAME=Surface_" << names.of(2, i) << ", TYPE=ELEMENT\n" << names.of(2, i) << ", SPOS\n";
+    out << "*SURFACE, NAME=Surface_" << names[2][i] << ", TYPE=ELEMENT\n" << names[2][i] << ", SPOS\n";
   }
 }
 
@@ -179,7 +170,7 @@ void check_membrane(const OutputMesh& mesh, InpElement element) {
       throw usage_error(
           "element",
           fmt::format("`element` {} needs a constant thickness, and that of Face{} varies: choose a shell",
-                      name_of(element), group.faces.front()));
+                      name_of(element), group.entities.front()));
 }
 
 /// Writes a set and a section for each thickness; varying thicknesses are given at the nodes. A file that
@@ -189,9 +180,8 @@ void write_sections(const OutputMesh& mesh, InpElement type, TextWriter& out) {
   const bool is_thick = family != InpFamily::axisymmetric;
   for (const ThicknessGroup& group : mesh.thicknesses()) {
     const bool has_faces = !mesh.groups(2).empty();  // sets of faces were asked for
-    write_set("ELSET", group.name, has_faces ? std::vector<int>() : OutputMesh::numbers_of(group.members),
-              out);
-    for (const int face : group.faces)
+    write_set("ELSET", group.name, has_faces ? std::vector<int>() : mesh.element_numbers(2, group), out);
+    for (const int face : group.entities)
       if (has_faces) out << "Face" << face << '\n';
     out << section_card(family) << ", ELSET=" << group.name << ", MATERIAL=Material"
         << (group.varies && is_thick ? ", NODAL THICKNESS\n" : "\n");
@@ -220,7 +210,7 @@ void write_text(const OutputMesh& mesh, const WriteOptions& options, const std::
     }
     to << '\n';
   });
-  const SetNames names(mesh);
+  const SetNames names = set_names(mesh);
   write_element_sets(mesh, options.element, names, out);
   write_node_sets(mesh, names, out);
   write_side_sets(mesh, options.element, names, out);

@@ -3,6 +3,7 @@
 #include "mesher/io/limits_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -53,8 +54,11 @@ class LimitsReader {
     for (const auto& [key, value] : object.items()) {
       std::size_t criterion = 0;
       while (criterion < criterion_count && criteria_info[criterion].name != key) ++criterion;
-      if (criterion == criterion_count)
-        fail(fmt::format("{} is not one of the criteria {}", key, known_names()));
+      if (criterion == criterion_count) {
+        std::vector<std::string_view> known;
+        for (const CriterionInfo& info : criteria_info) known.push_back(info.name);
+        fail(fmt::format("{} is not one of the criteria {}", key, fmt::join(known, ", ")));
+      }
       if (value.is_null())
         limits_.values[criterion] = CriteriaLimits::unchecked;
       else if (value.is_number())
@@ -62,13 +66,6 @@ class LimitsReader {
       else
         fail(fmt::format("the limit of {} must be a number, or null where it is not to be checked", key));
     }
-  }
-
-  static std::string known_names() {
-    std::string names;
-    for (const CriterionInfo& info : criteria_info)
-      names += (names.empty() ? "" : ", ") + std::string(info.name);
-    return names;
   }
 
   /// A line is: number of the criterion, its name in words, then numbers.

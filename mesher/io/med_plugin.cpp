@@ -106,13 +106,10 @@ class MedWriter {
   /// The names of the groups to which an entity belongs, including that of its thickness.
   std::vector<std::string> names_of(int dimension, int entity) const {
     std::vector<std::string> names;
-    const auto has = [entity](const std::vector<int>& entities) {
-      return std::binary_search(entities.begin(), entities.end(), entity);
-    };
-    for (const NamedGroup& group : mesh_.groups(dimension))
-      if (has(group.entities)) names.push_back(group.name);
-    for (const ThicknessGroup& group : mesh_.thicknesses())
-      if (dimension == 2 && has(group.faces)) names.push_back(group.name);
+    mesh_.for_each_group([&](int of, const NamedGroup& group) {
+      if (of == dimension && std::binary_search(group.entities.begin(), group.entities.end(), entity))
+        names.push_back(group.name);
+    });
     return names;
   }
 

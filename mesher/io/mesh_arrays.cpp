@@ -2,7 +2,6 @@
 
 #include "mesher/io/mesh_arrays.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -32,18 +31,17 @@ std::vector<MeshArray> mesh_arrays(const Writing& writing) {
         {"thickness", Type::real, false, [&mesh](int i, TextWriter& to) { to << mean_thickness(mesh, i); }});
   std::vector<MeshArray> of_nodes;
   for (const std::string& name : mesh.set_names()) {
-    const auto has_it = [&](int dimension) {
-      const auto& groups = mesh.groups(dimension);
-      return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group.name == name; });
-    };
-    if (has_it(2)) arrays.push_back(set_array(name, false, mesh.is_in_set(2, name)));
-    if (!has_it(1) && !has_it(0)) continue;
-    std::vector<char> members(mesh.nodes().size(), 0);
+    std::vector<char> shells, nodes;  // empty = no group of them has this name
+    for (const NamedGroup& group : mesh.groups(2))
+      if (group.name == name) shells = mesh.is_in_set(2, name);
     for (const int dimension : {1, 0})
-      for (const NamedGroup& group : mesh.groups(dimension))
-        if (group.name == name)
-          for (const int number : mesh.node_numbers(dimension, group)) members[number - 1] = 1;
-    of_nodes.push_back(set_array(name, true, std::move(members)));
+      for (const NamedGroup& group : mesh.groups(dimension)) {
+        if (group.name != name) continue;
+        nodes.resize(mesh.nodes().size(), 0);
+        for (const int number : mesh.node_numbers(dimension, group)) nodes[number - 1] = 1;
+      }
+    if (!shells.empty()) arrays.push_back(set_array(name, false, std::move(shells)));
+    if (!nodes.empty()) of_nodes.push_back(set_array(name, true, std::move(nodes)));
   }
   std::move(of_nodes.begin(), of_nodes.end(), std::back_inserter(arrays));
   return arrays;

@@ -14,14 +14,6 @@
 
 namespace quadrille {
 
-namespace {
-
-int corner_count(ElementShape shape) {
-  return static_cast<int>(shape) + 1;
-}
-
-}  // namespace
-
 void MeshBuilder::add_node(std::int64_t number, const Vector3& position) {
   if (number <= 0) throw failure(name_, fmt::format("{}: node number {} is not positive", name_, number));
   // Farther out, products of lengths such as those in areas and volumes become infinite.
@@ -192,52 +184,41 @@ int MeshBuilder::number_in_name(int groups, int dimension) const {
 
 namespace {
 
-/// Gives each combination of a CAD number and a set of groups a number of its own: the CAD number if that is
-/// free, else a new one.
-class EntityNumbers {
- public:
-  /// Registers a combination, to be numbered by finish(). \param cad 0 = none.
-  void add(int cad, int groups) {
-    if (keys_.try_emplace({cad, groups}, 0).second) in_order_.emplace_back(cad, groups);
+/// A CAD number, 0 = none, and a set of groups.
+using Combination = std::pair<int, int>;
+
+/// Gives each combination a number of its own: the CAD number if that is free, else a new one.
+std::map<Combination, int> numbers_of(const std::vector<Combination>& in_order) {
+  std::map<Combination, int> numbers;
+  int largest = 0;
+  std::set<int> taken{0};
+  std::vector<int*> waiting;
+  for (const Combination& key : in_order) {
+    const auto [place, is_new] = numbers.try_emplace(key, key.first);
+    largest = std::max(largest, key.first);
+    if (is_new && key != Combination(0, 0) && !taken.insert(key.first).second)
+      waiting.push_back(&place->second);
   }
-
-  void finish() {
-    int largest = 0;
-    std::set<int> taken;
-    std::vector<std::pair<int, int>> waiting;
-    for (const auto& key : in_order_) {
-      largest = std::max(largest, key.first);
-      if (key == std::pair(0, 0) || (key.first > 0 && taken.insert(key.first).second))
-        keys_[key] = key.first;
-      else
-        waiting.push_back(key);
-    }
-    for (const auto& key : waiting) keys_[key] = ++largest;
-  }
-
-  int of(int cad, int groups) const { return keys_.at({cad, groups}); }
-  const std::map<std::pair<int, int>, int>& all() const { return keys_; }
-
- private:
-  std::map<std::pair<int, int>, int> keys_;
-  std::vector<std::pair<int, int>> in_order_;  // as they were added
-};
+  for (int* number : waiting) *number = ++largest;
+  return numbers;
+}
 
 }  // namespace
 
 void MeshBuilder::number_entities() {
-  EntityNumbers numbers[3];
+  std::vector<Combination> found[3];
   for (FileElement& element : elements_) {
     const int dimension = dimension_of(element.shape);
     if (element.cad == 0 && element.groups != 0) element.cad = number_in_name(element.groups, dimension);
-    numbers[dimension].add(element.cad, element.groups);
+    found[dimension].emplace_back(element.cad, element.groups);
   }
   for (const int groups : node_groups_)
-    if (groups != 0) numbers[0].add(number_in_name(groups, 0), groups);
+    if (groups != 0) found[0].emplace_back(number_in_name(groups, 0), groups);
+  std::map<Combination, int> numbers[3];
   std::map<std::pair<int, int>, std::vector<int>> entities;  // by group and dimension
   for (const int dimension : {2, 1, 0}) {
-    numbers[dimension].finish();
-    for (const auto& [key, number] : numbers[dimension].all())
+    numbers[dimension] = numbers_of(found[dimension]);
+    for (const auto& [key, number] : numbers[dimension])
       for (const int group : group_sets_[key.second]) entities[{group, dimension}].push_back(number);
   }
   for (auto& [key, members] : entities) {
@@ -246,11 +227,11 @@ void MeshBuilder::number_entities() {
     mesh_.groups.push_back({group.name, key.second, group.number, std::move(members)});
   }
   for (FileElement& element : elements_)
-    element.cad = numbers[dimension_of(element.shape)].of(element.cad, element.groups);
+    element.cad = numbers[dimension_of(element.shape)].at({element.cad, element.groups});
   for (std::size_t node = 0; node < node_groups_.size(); ++node) {
-    if (node_groups_[node] == 0 || new_index_[node] < 0) continue;
-    const int cad = number_in_name(node_groups_[node], 0);
-    mesh_.corners.push_back({new_index_[node], numbers[0].of(cad, node_groups_[node])});
+    const int groups = node_groups_[node];
+    if (groups != 0 && new_index_[node] >= 0)
+      mesh_.corners.push_back({new_index_[node], numbers[0].at({number_in_name(groups, 0), groups})});
   }
 }
 

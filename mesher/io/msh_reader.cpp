@@ -39,17 +39,15 @@ class MshCursor : public TextCursor {
 
   bool is_binary = false;
 
-  /// A count or tag: text in ASCII, `Binary` in binary files.
-  template <class Binary>
-  std::int64_t number(const char* what) {
+  /// A count or tag, which has 4 or 8 bytes in binary files.
+  std::int64_t small(const char* what) { return is_binary ? binary<std::int32_t>(what) : integer(what); }
+  std::int64_t large(const char* what) {
     if (!is_binary) return integer(what);
-    const Binary value = binary<Binary>(what);
+    const auto value = binary<std::uint64_t>(what);
     if (value > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()))
       throw error(fmt::format("{} is out of range", what));
     return static_cast<std::int64_t>(value);
   }
-  std::int64_t small(const char* what) { return is_binary ? binary<std::int32_t>(what) : integer(what); }
-  std::int64_t large(const char* what) { return number<std::uint64_t>(what); }
   double real(const char* what) { return is_binary ? binary<double>(what) : TextCursor::real(what); }
 
   /// No item takes less than a byte: a larger count can only be wrong, and must not cost memory or time.
@@ -217,9 +215,7 @@ class MshReader {
   }
 
   Vector3 position() {
-    const double x = cursor_.real("a node's x"), y = cursor_.real("a node's y"),
-                 z = cursor_.real("a node's z");
-    return {x, y, z};
+    return Vector3{cursor_.real("a node's x"), cursor_.real("a node's y"), cursor_.real("a node's z")};
   }
 
   void read_nodes2() {
@@ -272,12 +268,13 @@ class MshReader {
     }
   }
 
-  template <class ReadNode>
-  void read_element_nodes(const ElementType& type, FileElement& element, ReadNode read_node) {
+  /// Adds an element, whose nodes follow.
+  void read_element_nodes(const ElementType& type, FileElement& element) {
+    constexpr const char* what = "an element's node";
     element.shape = type.shape;
     element.node_count = type.kept_nodes();
     for (int i = 0; i < type.nodes; ++i) {
-      const std::int64_t node = read_node();
+      const std::int64_t node = new_ ? cursor_.large(what) : cursor_.small(what);
       if (i < element.node_count) element.nodes[i] = node;
     }
     builder_.add_element(element);
@@ -301,7 +298,7 @@ class MshReader {
     element.number = number;
     element.cad = entity;
     element.groups = groups_.set_of(dimension_of(known.shape), entity, physical);
-    read_element_nodes(known, element, [this] { return cursor_.small("an element's node"); });
+    read_element_nodes(known, element);
   }
 
   void read_elements2() {
@@ -341,8 +338,7 @@ class MshReader {
       const std::int64_t count = cursor_.large_count("a block's number of elements");
       for (std::int64_t i = 0; i < count; ++i) {
         element.number = cursor_.large("an element's number");
-        read_element_nodes(type_of(cursor_, type, element.number), element,
-                           [this] { return cursor_.large("an element's node"); });
+        read_element_nodes(type_of(cursor_, type, element.number), element);
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,23 +24,19 @@ int largest_number(const std::vector<CadGroup>& groups) {
 /// number; edges follow after the last face of the model, and vertices after the last edge, since several
 /// programs take groups with the same number for one group, whatever their dimensions. The groups of the
 /// solid's faces come next, thicknesses last.
-class PhysicalNumbers {
- public:
+struct PhysicalNumbers {
   /// \param several whether an element may belong to more groups than that of its CAD entity. If not,
   /// thicknesses and the solid's faces are not groups: version 2.2 would repeat the elements, which few
   /// programs accept.
   PhysicalNumbers(const OutputMesh& mesh, bool several);
-  /// Number of a group; 0 if it is not a physical group. \param group index in OutputMesh::groups(dimension).
-  int of_group(int dimension, std::size_t group) const { return numbers_[dimension][group]; }
-  /// Numbers of the groups OutputMesh::thicknesses(); empty if these are not physical groups.
-  const std::vector<int>& of_thicknesses() const { return of_thicknesses_; }
   /// Numbers of the groups that a CAD face (dimension 2), edge (1) or vertex (0) belongs to, ascending.
   std::span<const int> of_entity(int dimension, int cad) const;
 
+  std::vector<int> of_groups[3];    ///< by dimension, as OutputMesh::groups(); 0 = not a physical group
+  std::vector<int> of_thicknesses;  ///< as OutputMesh::thicknesses(); empty if these are not physical groups
+
  private:
-  std::vector<int> numbers_[3];                               ///< by dimension and group
   std::unordered_map<int, std::vector<int>> of_entities_[3];  ///< by dimension and CAD number
-  std::vector<int> of_thicknesses_;
 };
 
 PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
@@ -48,28 +45,24 @@ PhysicalNumbers::PhysicalNumbers(const OutputMesh& mesh, bool several) {
   int last = mesh.groups_were_read() ? 0 : last_entity;
   for (int dimension = 0; dimension < 3; ++dimension)
     for (const NamedGroup& group : mesh.groups(dimension)) last = std::max(last, group.number);
+  const auto add = [&](int dimension, const NamedGroup& group, int number) {
+    for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
+    return number;
+  };
   for (const int dimension : {2, 1, 0}) {
     for (const NamedGroup& group : mesh.groups(dimension)) {
-      if (group.is_extra && !several) {
-        numbers_[dimension].push_back(0);
-        continue;
-      }
       int number = group.number;
       if (!mesh.groups_were_read() && !group.is_extra) number = first[dimension] + group.entities.front();
-      if (number == 0) number = ++last;
-      numbers_[dimension].push_back(number);
-      for (const int entity : group.entities) of_entities_[dimension][entity].push_back(number);
+      const bool is_physical = several || !group.is_extra;
+      if (number == 0 && is_physical) number = ++last;
+      of_groups[dimension].push_back(is_physical ? add(dimension, group, number) : 0);
     }
   }
   last = std::max(last, last_entity);
-  for (const ThicknessGroup& group : mesh.thicknesses()) {
-    if (!several) break;
-    of_thicknesses_.push_back(++last);
-    for (const int face : group.faces) of_entities_[2][face].push_back(last);
-  }
-  for (const int dimension : {2, 1, 0}) {
-    for (auto& [entity, numbers] : of_entities_[dimension]) std::sort(numbers.begin(), numbers.end());
-  }
+  for (const ThicknessGroup& group : mesh.thicknesses())
+    if (several) of_thicknesses.push_back(add(2, group, ++last));
+  for (auto& entities : of_entities_)
+    for (auto& [entity, numbers] : entities) std::sort(numbers.begin(), numbers.end());
 }
 
 std::span<const int> PhysicalNumbers::of_entity(int dimension, int cad) const {
@@ -83,11 +76,11 @@ void write_physical_names(const OutputMesh& mesh, const PhysicalNumbers& physica
     for (int dimension = 0; dimension < 3; ++dimension) {
       const std::vector<NamedGroup>& groups = mesh.groups(dimension);
       for (std::size_t i = 0; i < groups.size(); ++i)
-        if (groups[i].has_name && physical.of_group(dimension, i) > 0)
-          visit(dimension, physical.of_group(dimension, i), groups[i].name);
+        if (groups[i].has_name && physical.of_groups[dimension][i] > 0)
+          visit(dimension, physical.of_groups[dimension][i], groups[i].name);
     }
-    for (std::size_t i = 0; i < physical.of_thicknesses().size(); ++i)
-      visit(2, physical.of_thicknesses()[i], mesh.thicknesses()[i].name);
+    for (std::size_t i = 0; i < physical.of_thicknesses.size(); ++i)
+      visit(2, physical.of_thicknesses[i], mesh.thicknesses()[i].name);
   };
   std::size_t count = 0;
   each([&](int, int, const std::string&) { ++count; });
@@ -105,102 +98,69 @@ void write_msh_nodes(const OutputMesh& mesh, const ElementNodes& element, TextWr
   out << '\n';
 }
 
-/// The elements of one dimension. In this version an element has one physical number, so like Gmsh this
-/// repeats the elements of a mesh that was read, once for each further group.
-class ElementLines {
- public:
-  ElementLines(const OutputMesh& mesh, const PhysicalNumbers& physical, int dimension)
-      : mesh_(mesh), physical_(physical), dimension_(dimension), count_(mesh.count(dimension)) {
-    for (int i = 0; i < count_ && mesh.groups_were_read(); ++i) {
-      const std::size_t groups = physical.of_entity(dimension, entity(i)).size();
-      for (std::size_t k = 1; k < groups; ++k) repeated_.emplace_back(i, k);
+/// A CAD entity. Members without a CAD number form an entity under a free number.
+struct Entity {
+  int dimension, tag;
+  const CadGroup& elements;
+  std::vector<int> boundary;  // signed numbers of the entities that bound it
+  std::vector<int> nodes;     // file numbers of the nodes inside it
+};
+
+/// The entities by ascending dimension; each node is inside the first one that has it.
+std::vector<Entity> entities_of(const OutputMesh& mesh) {
+  const EntityBoundaries boundaries = entity_boundaries(mesh);
+  std::vector<char> claimed(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
+  std::vector<Entity> entities;
+  for (const int dimension : {0, 1, 2}) {
+    const std::vector<CadGroup>& groups = mesh.entities(dimension);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const int number = groups[i].number;
+      Entity& entity = entities.emplace_back(
+          Entity{dimension, number > 0 ? number : largest_number(groups) + 1, groups[i], {}, {}});
+      if (dimension > 0) entity.boundary = (dimension == 1 ? boundaries.edges : boundaries.faces)[i];
+      for (const int member : groups[i].members)
+        for (const int node : mesh.element_nodes(dimension, member))
+          if (!std::exchange(claimed[node], 1)) entity.nodes.push_back(mesh.number(node));
     }
   }
-
-  std::size_t size() const { return count_ + repeated_.size(); }
-
-  /// \param before number of elements in the file before these.
-  void write(std::size_t before, TextWriter& out) const {
-    write_in_order(size(), out, [&](int line, TextWriter& to) {
-      const auto [i, group] = line < count_ ? std::pair(line, std::size_t{0}) : repeated_[line - count_];
-      const std::span<const int> numbers = physical_.of_entity(dimension_, entity(i));
-      const ElementNodes element = mesh_.element_nodes(dimension_, i);
-      to << before + line + 1 << ' ' << element.type().msh << " 2 " << (numbers.empty() ? 0 : numbers[group])
-         << ' ' << entity(i);
-      write_msh_nodes(mesh_, element, to);
-    });
-  }
-
- private:
-  int entity(int i) const { return mesh_.entity(dimension_, i); }
-
-  const OutputMesh& mesh_;
-  const PhysicalNumbers& physical_;
-  int dimension_, count_;
-  std::vector<std::pair<int, std::size_t>> repeated_;  // element, index into its groups
-};
-
-/// The CAD entities of one dimension. Members without a CAD number form an entity under a free number.
-struct Entities {
-  int dimension = 0;
-  std::vector<CadGroup> elements;
-  std::vector<std::vector<int>> nodes;  // file numbers of the nodes inside each entity
-  std::vector<int> tags;
-  std::vector<std::vector<int>> boundaries;  // signed numbers of the entities that bound each entity
-};
-
-Entities make_entities(const OutputMesh& mesh, int dimension,
-                       const std::vector<std::vector<int>>& boundaries) {
-  const std::vector<CadGroup>& groups = mesh.entities(dimension);
-  Entities entities{dimension, groups, std::vector<std::vector<int>>(groups.size()), {}, boundaries};
-  const int largest = largest_number(groups);
-  for (const CadGroup& group : groups) entities.tags.push_back(group.number > 0 ? group.number : largest + 1);
   return entities;
 }
 
-/// Assigns each unclaimed node to the first entity that has it. Call it by ascending dimension.
-void claim_nodes(const OutputMesh& mesh, Entities& entities, std::vector<char>& claimed) {
-  for (std::size_t i = 0; i < entities.elements.size(); ++i)
-    for (const int member : entities.elements[i].members)
-      for (const int node : mesh.element_nodes(entities.dimension, member)) {
-        if (claimed[node]) continue;
-        claimed[node] = 1;
-        entities.nodes[i].push_back(mesh.number(node));
-      }
+void write_list(std::span<const int> numbers, TextWriter& out) {
+  out << ' ' << numbers.size();
+  for (const int number : numbers) out << ' ' << number;
 }
 
-void write_entity(const OutputMesh& mesh, const Entities& entities, std::size_t index,
-                  std::span<const int> physical, TextWriter& out) {
-  const CadGroup& group = entities.elements[index];
-  Eigen::AlignedBox3d box;
-  for (const int member : group.members)
-    for (const int node : mesh.element_nodes(entities.dimension, member)) box.extend(mesh.position(node));
-  out << entities.tags[index] << ' ' << Vector3(box.min());
-  if (entities.dimension > 0) out << ' ' << Vector3(box.max());
-  out << ' ' << physical.size();
-  for (const int number : physical) out << ' ' << number;
-  if (entities.dimension > 0) {
-    out << ' ' << entities.boundaries[index].size();
-    for (const int boundary : entities.boundaries[index]) out << ' ' << boundary;
+void write_entities(const OutputMesh& mesh, const std::vector<Entity>& entities,
+                    const PhysicalNumbers& physical, TextWriter& out) {
+  out << "$Entities\n";
+  for (const int dimension : {0, 1, 2}) out << mesh.entities(dimension).size() << ' ';
+  out << "0\n";
+  for (const Entity& entity : entities) {
+    Eigen::AlignedBox3d box;
+    for (const int member : entity.elements.members)
+      for (const int node : mesh.element_nodes(entity.dimension, member)) box.extend(mesh.position(node));
+    out << entity.tag << ' ' << Vector3(box.min());
+    if (entity.dimension > 0) out << ' ' << Vector3(box.max());
+    write_list(physical.of_entity(entity.dimension, entity.elements.number), out);
+    if (entity.dimension > 0) write_list(entity.boundary, out);
+    out << '\n';
   }
-  out << '\n';
+  out << "$EndEntities\n";
 }
 
-void write_node_blocks(const OutputMesh& mesh, const std::vector<Entities>& all, TextWriter& out) {
-  std::size_t blocks = 0;
-  for (const Entities& entities : all)
-    for (const auto& nodes : entities.nodes) blocks += !nodes.empty();
+void write_node_blocks(const OutputMesh& mesh, const std::vector<Entity>& entities, TextWriter& out) {
+  const auto blocks = std::count_if(entities.begin(), entities.end(),
+                                    [](const Entity& entity) { return !entity.nodes.empty(); });
   const std::size_t count = mesh.nodes().size();
-  out << "$Nodes\n" << blocks << ' ' << count << " 1 " << count << '\n';
-  for (const Entities& entities : all)
-    for (std::size_t i = 0; i < entities.nodes.size(); ++i) {
-      const std::vector<int>& nodes = entities.nodes[i];
-      if (nodes.empty()) continue;
-      out << entities.dimension << ' ' << entities.tags[i] << " 0 " << nodes.size() << '\n';
-      for (const int number : nodes) out << number << '\n';
-      write_in_order(nodes.size(), out,
-                     [&](int k, TextWriter& to) { to << mesh.point(nodes[k] - 1) << '\n'; });
-    }
+  out << "$Nodes\n" << static_cast<std::size_t>(blocks) << ' ' << count << " 1 " << count << '\n';
+  for (const Entity& entity : entities) {
+    const std::vector<int>& nodes = entity.nodes;
+    if (nodes.empty()) continue;
+    out << entity.dimension << ' ' << entity.tag << " 0 " << nodes.size() << '\n';
+    for (const int number : nodes) out << number << '\n';
+    write_in_order(nodes.size(), out, [&](int k, TextWriter& to) { to << mesh.point(nodes[k] - 1) << '\n'; });
+  }
   out << "$EndNodes\n";
 }
 
@@ -210,34 +170,27 @@ struct ElementBlock {
   std::vector<int> members;
 };
 
-std::vector<ElementBlock> element_blocks(const OutputMesh& mesh, const std::vector<Entities>& all) {
+void write_element_blocks(const OutputMesh& mesh, const std::vector<Entity>& entities, TextWriter& out) {
   std::vector<ElementBlock> blocks;
-  for (const Entities& entities : all)
-    for (std::size_t i = 0; i < entities.elements.size(); ++i) {
-      int last_type = 0;
-      for (const int member : entities.elements[i].members) {
-        const int type = mesh.element_nodes(entities.dimension, member).type().msh;
-        if (type != last_type) blocks.push_back({entities.dimension, entities.tags[i], type, {}});
-        last_type = type;
-        blocks.back().members.push_back(member);
-      }
+  std::size_t count = 0, before = 0;
+  for (const Entity& entity : entities) {
+    int last_type = 0;
+    for (const int member : entity.elements.members) {
+      const int type = mesh.element_nodes(entity.dimension, member).type().msh;
+      if (type != last_type) blocks.push_back({entity.dimension, entity.tag, type, {}});
+      last_type = type;
+      blocks.back().members.push_back(member);
+      ++count;
     }
-  return blocks;
-}
-
-void write_element_blocks(const OutputMesh& mesh, const std::vector<Entities>& all, TextWriter& out) {
-  const std::vector<ElementBlock> blocks = element_blocks(mesh, all);
-  std::size_t count = 0;
-  for (const ElementBlock& block : blocks) count += block.members.size();
+  }
   out << "$Elements\n" << blocks.size() << ' ' << count << " 1 " << count << '\n';
-  std::size_t number = 0;
   for (const ElementBlock& block : blocks) {
     out << block.dimension << ' ' << block.tag << ' ' << block.type << ' ' << block.members.size() << '\n';
     write_in_order(block.members.size(), out, [&](int i, TextWriter& to) {
-      to << number + i + 1;
+      to << before + i + 1;
       write_msh_nodes(mesh, mesh.element_nodes(block.dimension, block.members[i]), to);
     });
-    number += block.members.size();
+    before += block.members.size();
   }
   out << "$EndElements\n";
 }
@@ -249,35 +202,40 @@ void write_msh2(const OutputMesh& mesh, TextWriter& out) {
   out << "$Nodes\n" << mesh.nodes().size() << '\n';
   write_in_order(mesh.nodes().size(), out,
                  [&](int i, TextWriter& to) { to << i + 1 << ' ' << mesh.point(i) << '\n'; });
-  const ElementLines kinds[] = {{mesh, physical, 0}, {mesh, physical, 1}, {mesh, physical, 2}};
-  out << "$EndNodes\n$Elements\n" << kinds[0].size() + kinds[1].size() + kinds[2].size() << '\n';
-  std::size_t before = 0;
-  for (const ElementLines& kind : kinds) {
-    kind.write(before, out);
-    before += kind.size();
+  // In this version an element has one physical number, so like Gmsh this repeats the elements of a mesh that
+  // was read, once for each further group.
+  struct Line {
+    int dimension, member;
+    std::size_t group;  // index into the numbers of its entity
+  };
+  std::vector<Line> lines;
+  for (const int dimension : {0, 1, 2}) {
+    for (int i = 0; i < mesh.count(dimension); ++i) lines.push_back({dimension, i, 0});
+    for (int i = 0; i < mesh.count(dimension) && mesh.groups_were_read(); ++i)
+      for (std::size_t k = 1; k < physical.of_entity(dimension, mesh.entity(dimension, i)).size(); ++k)
+        lines.push_back({dimension, i, k});
   }
+  out << "$EndNodes\n$Elements\n" << lines.size() << '\n';
+  write_in_order(lines.size(), out, [&](int i, TextWriter& to) {
+    const auto& [dimension, member, group] = lines[i];
+    const int entity = mesh.entity(dimension, member);
+    const std::span<const int> numbers = physical.of_entity(dimension, entity);
+    const ElementNodes element = mesh.element_nodes(dimension, member);
+    to << i + 1 << ' ' << element.type().msh << " 2 " << (numbers.empty() ? 0 : numbers[group]) << ' '
+       << entity;
+    write_msh_nodes(mesh, element, to);
+  });
   out << "$EndElements\n";
 }
 
 void write_msh4(const OutputMesh& mesh, TextWriter& out) {
   const PhysicalNumbers physical(mesh, true);
-  const EntityBoundaries boundaries = entity_boundaries(mesh);
-  std::vector<Entities> all{make_entities(mesh, 0, {}), make_entities(mesh, 1, boundaries.edges),
-                            make_entities(mesh, 2, boundaries.faces)};
-  std::vector<char> claimed(mesh.nodes().empty() ? 0 : static_cast<std::size_t>(mesh.nodes().back()) + 1, 0);
-  for (Entities& entities : all) claim_nodes(mesh, entities, claimed);
+  const std::vector<Entity> entities = entities_of(mesh);
   out << "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   write_physical_names(mesh, physical, out);
-  out << "$Entities\n";
-  for (const Entities& entities : all) out << entities.tags.size() << ' ';
-  out << "0\n";
-  for (const Entities& entities : all)
-    for (std::size_t i = 0; i < entities.tags.size(); ++i)
-      write_entity(mesh, entities, i, physical.of_entity(entities.dimension, entities.elements[i].number),
-                   out);
-  out << "$EndEntities\n";
-  write_node_blocks(mesh, all, out);
-  write_element_blocks(mesh, all, out);
+  write_entities(mesh, entities, physical, out);
+  write_node_blocks(mesh, entities, out);
+  write_element_blocks(mesh, entities, out);
 }
 
 }  // namespace

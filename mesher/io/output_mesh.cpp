@@ -31,11 +31,6 @@ std::vector<CadGroup> grouped(int count, NumberOf number_of) {
   return groups;
 }
 
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 }  // namespace
 
 OutputMesh::OutputMesh(const ShellMesh& mesh, const GroupKinds& groups, int quad_nodes)
@@ -111,7 +106,8 @@ std::vector<int> OutputMesh::node_numbers(int dimension, const NamedGroup& group
   std::vector<int> numbers;
   for (const int member : members(dimension, group))
     for (const int node : element_nodes(dimension, member)) numbers.push_back(number(node));
-  sort_unique(numbers);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
 }
 
@@ -145,9 +141,8 @@ void OutputMesh::group_by_thickness() {
     auto group = std::find_if(thicknesses_.begin(), thicknesses_.end(),
                               [&](const ThicknessGroup& other) { return other.name == name; });
     if (group == thicknesses_.end())
-      group = thicknesses_.insert(thicknesses_.end(), {name, thickness, varying != nullptr, {}, {}});
-    group->faces.push_back(face.number);
-    group->members.insert(group->members.end(), face.members.begin(), face.members.end());
+      group = thicknesses_.insert(thicknesses_.end(), {{name, true, 0, {}}, thickness, varying != nullptr});
+    group->entities.push_back(face.number);
   }
 }
 
@@ -193,30 +188,30 @@ std::vector<std::pair<int, double>> OutputMesh::node_thicknesses() const {
   return result;
 }
 
-void OutputMesh::use(int node, const char* what, std::size_t index) {
-  if (node < 0 || node >= static_cast<int>(mesh_.points.size()))
-    throw failure(fmt::format("{} {}", what, index + 1),
-                  fmt::format("{} {} of the mesh has node index {}, but there are {} nodes", what, index + 1,
-                              node, mesh_.points.size()));
-  numbers_[node] = 1;
-}
-
 void OutputMesh::number_nodes() {
   numbers_.assign(mesh_.points.size(), 0);
   if (mesh_.order == 2 && mesh_.midsides.size() != mesh_.quads.size())
     throw failure("", "the second-order mesh does not have midside nodes for each quad");
+  const auto use = [&](const char* what, std::size_t index, const auto& nodes) {
+    for (const int node : nodes) {
+      if (node < 0 || node >= static_cast<int>(mesh_.points.size()))
+        throw failure(fmt::format("{} {}", what, index + 1),
+                      fmt::format("{} {} of the mesh has node index {}, but there are {} nodes", what,
+                                  index + 1, node, mesh_.points.size()));
+      numbers_[node] = 1;
+    }
+  };
   for (std::size_t i = 0; i < mesh_.quads.size(); ++i) {
-    for (const int node : mesh_.quads[i]) use(node, "quad", i);
-    if (mesh_.order == 2)
-      for (const int node : mesh_.midsides[i]) use(node, "quad", i);
+    use("quad", i, mesh_.quads[i]);
+    if (mesh_.order == 2) use("quad", i, mesh_.midsides[i]);
   }
-  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-    for (const int node : mesh_.triangles[i]) use(node, "triangle", i);
+  for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) use("triangle", i, mesh_.triangles[i]);
   for (std::size_t i = 0; i < mesh_.segments.size(); ++i) {
-    for (const int node : mesh_.segments[i].nodes) use(node, "segment", i);
-    if (mesh_.order == 2 && mesh_.segments[i].middle >= 0) use(mesh_.segments[i].middle, "segment", i);
+    use("segment", i, mesh_.segments[i].nodes);
+    if (mesh_.order == 2 && mesh_.segments[i].middle >= 0)
+      use("segment", i, std::array{mesh_.segments[i].middle});
   }
-  for (std::size_t i = 0; i < mesh_.corners.size(); ++i) use(mesh_.corners[i].node, "corner", i);
+  for (std::size_t i = 0; i < mesh_.corners.size(); ++i) use("corner", i, std::array{mesh_.corners[i].node});
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     if (numbers_[i] == 0) continue;
     if (!mesh_.points[i].allFinite())
@@ -234,23 +229,6 @@ int OutputMesh::face(int shell) const {
   return index < faces.size() ? faces[index] : 0;
 }
 
-ElementNodes OutputMesh::shell_nodes(int shell) const {
-  ElementNodes result;
-  if (!is_quad(shell)) {
-    std::copy_n(mesh_.triangles[shell - quad_count()].begin(), 3, result.nodes.begin());
-    result.count = 3;
-    return result;
-  }
-  std::copy_n(mesh_.quads[shell].begin(), 4, result.nodes.begin());
-  result.count = 4;
-  if (mesh_.order == 2) {
-    std::copy_n(mesh_.midsides[shell].begin(), 4, result.nodes.begin() + 4);
-    result.count = 8;
-    if (!middles_.empty()) result.nodes[result.count++] = static_cast<int>(mesh_.points.size()) + shell;
-  }
-  return result;
-}
-
 int OutputMesh::count(int dimension) const {
   if (dimension == 2) return shell_count();
   if (dimension == 1) return groups_.edges ? static_cast<int>(mesh_.segments.size()) : 0;
@@ -263,18 +241,31 @@ int OutputMesh::entity(int dimension, int member) const {
 }
 
 ElementNodes OutputMesh::element_nodes(int dimension, int member) const {
-  if (dimension == 2) return shell_nodes(member);
-  if (dimension == 0) return {{corner_node(member)}, 1, 0};
-  const ShellMesh::Segment& side = mesh_.segments[member];
-  ElementNodes result{{side.nodes[0], side.nodes[1]}, 2, 1};
-  if (mesh_.order == 2 && side.middle >= 0) result.nodes[result.count++] = side.middle;
+  ElementNodes result{{}, 0, dimension};
+  const auto add = [&](const auto& nodes) {
+    std::copy(nodes.begin(), nodes.end(), result.nodes.begin() + result.count);
+    result.count += static_cast<int>(nodes.size());
+  };
+  if (dimension == 0) {
+    add(std::array{corner_node(member)});
+  } else if (dimension == 1) {
+    const ShellMesh::Segment& side = mesh_.segments[member];
+    add(side.nodes);
+    if (mesh_.order == 2 && side.middle >= 0) add(std::array{side.middle});
+  } else if (!is_quad(member)) {
+    add(mesh_.triangles[member - quad_count()]);
+  } else {
+    add(mesh_.quads[member]);
+    if (mesh_.order == 2) add(mesh_.midsides[member]);
+    if (!middles_.empty()) add(std::array{static_cast<int>(mesh_.points.size()) + member});
+  }
   return result;
 }
 
-std::vector<int> OutputMesh::numbers_of(std::vector<int> shells) {
-  std::sort(shells.begin(), shells.end());
-  for (int& shell : shells) ++shell;
-  return shells;
+std::vector<int> OutputMesh::element_numbers(int dimension, const NamedGroup& group) const {
+  std::vector<int> numbers = members(dimension, group);
+  for (int& number : numbers) number += 1 + (dimension == 1 ? shell_count() : 0);
+  return numbers;
 }
 
 }  // namespace quadrille

@@ -40,13 +40,11 @@ struct NamedGroup {
   bool is_extra = false;      ///< its entities have groups of their own too
 };
 
-/// The faces with the same thickness, or the same range of thicknesses, to the digits in the name.
-struct ThicknessGroup {
-  std::string name;          ///< "Thickness2.5", "Thickness2to4"
-  std::string thickness;     ///< "2.5"; the mean if it varies
-  bool varies = false;       ///< whether the thickness varies over each face
-  std::vector<int> faces;    ///< CAD faces with elements, ascending
-  std::vector<int> members;  ///< indices of their shell elements
+/// The faces with the same thickness, or the same range of thicknesses, to the digits in the name:
+/// "Thickness2.5", "Thickness2to4".
+struct ThicknessGroup : NamedGroup {
+  std::string thickness;  ///< "2.5"; the mean if it varies
+  bool varies = false;    ///< whether the thickness varies over each face
 };
 
 /// A mesh as it is written to a file. Shell elements are numbered together: quads first, then triangles.
@@ -80,10 +78,9 @@ class OutputMesh {
   /// elements.
   int cad_face_count() const;
   int corner_node(int corner) const { return mesh_.corners[corner].node; }
-  ElementNodes shell_nodes(int shell) const;
 
-  /// The same by dimension, of shell elements (2), segments (1) or corners (0): their number, the CAD face,
-  /// edge or vertex of one (0 = none), and its nodes, of segments the ends before the midside node.
+  /// By dimension, of shell elements (2), segments (1) or corners (0): their number, the CAD face, edge or
+  /// vertex of one (0 = none), and its nodes, of segments the ends before the midside node.
   int count(int dimension) const;
   int entity(int dimension, int member) const;
   ElementNodes element_nodes(int dimension, int member) const;
@@ -105,10 +102,18 @@ class OutputMesh {
   const std::vector<NamedGroup>& groups(int dimension) const { return named_[dimension]; }
   /// Whether the groups were read from a file with the mesh.
   bool groups_were_read() const { return !mesh_.groups.empty(); }
+  /// Calls `visit(dimension, group)` for the groups of shell elements, segments and corners, and for those by
+  /// thickness.
+  template <class Visit>
+  void for_each_group(Visit&& visit) const {
+    for (const int dimension : {2, 1, 0})
+      for (const NamedGroup& group : named_[dimension]) visit(dimension, group);
+    for (const ThicknessGroup& group : thicknesses_) visit(2, group);
+  }
   /// Indices of the shell elements, segments or corners in a group, ascending.
   std::vector<int> members(int dimension, const NamedGroup& group) const;
-  /// Numbers of shell elements in the file, ascending. \param shells their indices
-  static std::vector<int> numbers_of(std::vector<int> shells);
+  /// Numbers of the shell elements or segments of a group in the file, ascending; segments follow the shells.
+  std::vector<int> element_numbers(int dimension, const NamedGroup& group) const;
   /// Names of groups, each once, that do not follow from the numbers of faces, edges and vertices, such as
   /// those of sets that were read. VTK's formats have one array for each name.
   std::vector<std::string> set_names() const;
@@ -123,7 +128,6 @@ class OutputMesh {
   void group_by_thickness();
   const ShellMesh::VaryingThickness* varying_on(int face) const;
   void name_groups(int dimension);
-  void use(int node, const char* what, std::size_t index);
 
   const ShellMesh& mesh_;
   const GroupKinds groups_;

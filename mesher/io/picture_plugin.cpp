@@ -154,11 +154,6 @@ View make_view(const std::vector<Vector3>& points) {
   return view;
 }
 
-/// Half the height of the picture in model units, with a margin. \param aspect width over height
-double parallel_scale(const View& view, double aspect) {
-  return 1.06 * std::max(view.half_height, view.half_width / aspect);
-}
-
 void aim_camera(const View& view, double scale, vtkRenderer* renderer) {
   const double depth = 4 * (view.half_width + view.half_height);
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -298,7 +293,8 @@ std::string draw(const ShellMesh& mesh, const std::vector<double>& qualities, in
   vtkNew<vtkRenderer> scene, legend;
   scene->SetViewport(0, 0, picture_share, 1);
   legend->SetViewport(picture_share, 0, 1, 1);
-  const double scale = parallel_scale(view, picture_share * width / height);
+  // Half the height of the picture in model units, with a margin.
+  const double scale = 1.06 * std::max(view.half_height, view.half_width / (picture_share * width / height));
   add_actors(mesh, qualities, scale / height, std::max(1.0, height / 600.0), colors, scene);
   legend->AddViewProp(color_bar(colors, 2 * height));
   aim_camera(view, scale, scene);
@@ -317,7 +313,7 @@ QUADRILLE_EXPORT std::string quadrille_picture_draw(const quadrille::ShellMesh& 
                                                     const std::vector<double>& qualities, int width,
                                                     int height, std::string& bytes) try {
   const quadrille::XDisplay display;
-  if (!display.usable()) return display.problem();
+  if (!display.problem().empty()) return display.problem();
   bytes = quadrille::draw(mesh, qualities, width, height);
   return bytes.empty() ? "VTK could not draw the picture" : "";
 } catch (const std::exception& error) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +36,16 @@ void for_each_node(const ShellMesh& mesh, Visit&& visit) {
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (const int node : mesh.triangles[i]) visit(node, mesh.triangle_faces[i]);
+}
+
+/// The largest value that `measure` gives for a node, at least 0, and the face that the node is on.
+template <class Measure>
+std::pair<double, int> largest(const ShellMesh& mesh, Measure&& measure) {
+  std::pair<double, int> result(0, 0);
+  for_each_node(mesh, [&](int node, int face) {
+    if (const double value = measure(mesh.points[node]); value > result.first) result = {value, face};
+  });
+  return result;
 }
 
 double diagonal_of(const ShellMesh& mesh) {
@@ -94,12 +103,8 @@ std::string turn_text(const Frame& frame, double tolerance) {
 }
 
 void check_plane(const ShellMesh& mesh, const Frame& frame, double tolerance, const std::string& subject) {
-  double farthest = 0;
-  int face = 0;
-  for_each_node(mesh, [&](int node, int of_face) {
-    const double off = std::abs(mesh.points[node].dot(frame.z) - frame.height);
-    if (off > farthest) std::tie(farthest, face) = std::pair(off, of_face);
-  });
+  const auto [farthest, face] =
+      largest(mesh, [&](const Vector3& point) { return std::abs(point.dot(frame.z) - frame.height); });
   if (farthest <= tolerance) return;
   throw usage_error(
       "element",
@@ -109,16 +114,12 @@ void check_plane(const ShellMesh& mesh, const Frame& frame, double tolerance, co
 }
 
 void check_radii(const ShellMesh& plane, const Frame& frame, double tolerance, const std::string& subject) {
-  double least = 0;
-  int face = 0;
-  for_each_node(plane, [&](int node, int of_face) {
-    if (plane.points[node].x() < least) std::tie(least, face) = std::pair(plane.points[node].x(), of_face);
-  });
-  if (least >= -tolerance) return;
+  const auto [beyond, face] = largest(plane, [](const Vector3& point) { return -point.x(); });
+  if (beyond <= tolerance) return;
   throw usage_error(
       "element", fmt::format("{} has its axis through the origin along {}, and Face{} reaches to the radius "
                              "{:.6g}: move the model to one side of the axis, where {} is positive",
-                             subject, vector_text(frame.y), face, least, vector_text(frame.x)));
+                             subject, vector_text(frame.y), face, -beyond, vector_text(frame.x)));
 }
 
 /// Twice the signed area of the corners in the plane.

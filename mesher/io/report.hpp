@@ -26,7 +26,7 @@ MeshMeasures measure(const ShellMesh& mesh);
 /// status, quads, q_min, note, off_geometry: how many of its nodes are off the geometry, and how
 /// far), off_geometry (node, distance) for all of them, suppressed_features, filled_holes, crossed_edges
 /// (name, faces, the distance of the quads that cross it, a line to draw it by), groups with names of the CAD
-/// file, matches, warnings, versions of the libraries. \param scale see WriteOptions; lengths in the report
+/// file, warnings, versions of the libraries. \param scale see WriteOptions; lengths in the report
 /// are millimeters.
 nlohmann::json make_report(const ShellMesh& mesh, const MeshMeasures& measures,
                            const ExecutionContext& context, const std::filesystem::path& input,

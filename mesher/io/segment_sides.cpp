@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 #include "geometry/base/side_key.hpp"
@@ -23,23 +22,14 @@ std::vector<std::vector<int>> ends_of_edges(const OutputMesh& mesh) {
   std::vector<std::vector<int>> ends;
   for (const CadGroup& edge : mesh.entities(1)) {
     ends.emplace_back();
-    std::vector<int> from, to;
-    for (const int segment : edge.members) {
-      const ElementNodes nodes = mesh.element_nodes(1, segment);
-      from.push_back(nodes.nodes[0]);
-      to.push_back(nodes.nodes[1]);
-    }
-    const auto add = [&](int node, int sign) {
-      const auto found = vertex_at.find(node);
-      if (found != vertex_at.end() && found->second > 0 && edge.number > 0)
-        ends.back().push_back(sign * found->second);
-    };
-    const std::unordered_set<int> starts(from.begin(), from.end()), stops(to.begin(), to.end());
+    if (edge.number == 0) continue;
     // A closed edge begins and ends at its vertex, wherever that is in the chain.
-    for (const int node : from)
-      if (!stops.contains(node) || vertex_at.contains(node)) add(node, 1);
-    for (const int node : to)
-      if (!starts.contains(node) || vertex_at.contains(node)) add(node, -1);
+    for (const int end : {0, 1})
+      for (const int segment : edge.members) {
+        const auto found = vertex_at.find(mesh.element_nodes(1, segment).nodes[end]);
+        if (found != vertex_at.end() && found->second > 0)
+          ends.back().push_back(end == 0 ? found->second : -found->second);
+      }
   }
   return ends;
 }
@@ -58,7 +48,7 @@ std::vector<SegmentSide> segment_sides(const OutputMesh& mesh) {
   std::sort(keyed.begin(), keyed.end());
   std::vector<SegmentSide> sides;
   for (int shell = 0; shell < mesh.shell_count(); ++shell) {
-    const ElementNodes nodes = mesh.shell_nodes(shell);
+    const ElementNodes nodes = mesh.element_nodes(2, shell);
     const int corners = mesh.is_quad(shell) ? 4 : 3;
     for (int side = 0; side < corners; ++side) {
       const int a = nodes.nodes[side], b = nodes.nodes[(side + 1) % corners];

@@ -21,8 +21,8 @@ std::vector<SegmentSide> segment_sides(const OutputMesh& mesh);
 
 /// The CAD entities that bound faces and edges, signed by direction; each appears once per direction.
 struct EntityBoundaries {
-  std::vector<std::vector<int>> faces;  ///< by index in OutputMesh::faces(): edges; -7 = Edge7 reversed
-  std::vector<std::vector<int>> edges;  ///< by index in OutputMesh::edges(): first vertex, minus last vertex
+  std::vector<std::vector<int>> faces;  ///< by index in OutputMesh::entities(2): edges; -7 = Edge7 reversed
+  std::vector<std::vector<int>> edges;  ///< by index in entities(1): first vertex, minus last vertex
 };
 
 /// Entities without a number bound nothing and have no boundaries. O(n + s log s) as above.

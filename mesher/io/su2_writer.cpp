@@ -66,7 +66,7 @@ void write_su2(const Writing& writing, TextWriter& out) {
   });
   out << "NELEM= " << mesh.shell_count() << '\n';
   write_in_order(mesh.shell_count(), out,
-                 [&](int i, TextWriter& to) { write_element(mesh, mesh.shell_nodes(i), to); });
+                 [&](int i, TextWriter& to) { write_element(mesh, mesh.element_nodes(2, i), to); });
   write_markers(mesh, out);
 }
 

@@ -3,7 +3,8 @@
 /// FreeCAD, Salome, Gmsh and ElmerGrid read; ElmerGrid does not know 95 (thin shell). Based on: the dataset
 /// descriptions of the University of Cincinnati's SDRL.
 
-#include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 
 #include "mesher/io/writers.hpp"
@@ -23,25 +24,12 @@ void end_dataset(TextWriter& out) {
 }
 
 /// Writes fields of the format: ten columns per number, eight numbers per line.
-class Fields {
- public:
-  explicit Fields(TextWriter& out) : out_(out) {}
-  /// Must be called after the last number.
-  void end() {
-    if (count_ > 0) out_ << '\n';
-    count_ = 0;
+void write_fields(std::span<const int> numbers, TextWriter& out) {
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    out.padded(numbers[i], 10);
+    if (i % 8 == 7 || i + 1 == numbers.size()) out << '\n';
   }
-  void add(int value) {
-    out_.padded(value, 10);
-    if (++count_ < 8) return;
-    out_ << '\n';
-    count_ = 0;
-  }
-
- private:
-  TextWriter& out_;
-  int count_ = 0;
-};
+}
 
 /// Units and the coordinate system, as FreeCAD and Salome write them. Without them, their reader searches the
 /// whole file for each, which takes half of its time. It multiplies coordinates by the first factor, so the
@@ -77,16 +65,15 @@ void write_element(const OutputMesh& mesh, int dimension, int member, TextWriter
   const ElementNodes element = mesh.element_nodes(dimension, member);
   const bool line = dimension == 1;
   const int number = member + 1 + (line ? mesh.shell_count() : 0), cad = mesh.entity(dimension, member);
-  Fields fields(out);
-  for (const int value : {number, element.type().unv, cad, 1, 7, element.count}) fields.add(value);
-  fields.end();
+  write_fields(std::array{number, element.type().unv, cad, 1, 7, element.count}, out);
   if (line) out << "         0         1         1\n";
-  const int corners = line ? 2 : element.count == 3 ? 3 : 4;
-  for (int i = 0; i < corners; ++i) {
-    fields.add(mesh.number(element.nodes[i]));
-    if (corners + i < element.count) fields.add(mesh.number(element.nodes[corners + i]));
-  }
-  fields.end();
+  const int corners = corner_count(element.type().shape);
+  std::array<int, 8> around{};
+  std::size_t count = 0;
+  for (int i = 0; i < corners; ++i)
+    for (int node = i; node < element.count; node += corners)
+      around[count++] = mesh.number(element.nodes[node]);
+  write_fields(std::span(around).first(count), out);
 }
 
 void write_elements(const OutputMesh& mesh, TextWriter& out) {
@@ -100,33 +87,23 @@ void write_elements(const OutputMesh& mesh, TextWriter& out) {
 /// \param members numbers of elements, or of nodes
 void write_group(int number, const std::string& name, const std::vector<int>& members, int entity_type,
                  TextWriter& out) {
-  Fields fields(out);
-  for (const int value : {number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size())}) fields.add(value);
+  write_fields(std::array{number, 0, 0, 0, 0, 0, 0, static_cast<int>(members.size())}, out);
   out << name << '\n';
-  for (const int member : members)
-    for (const int value : {entity_type, member, 0, 0}) fields.add(value);
-  fields.end();
+  std::vector<int> fields;
+  for (const int member : members) fields.insert(fields.end(), {entity_type, member, 0, 0});
+  write_fields(fields, out);
 }
 
 void write_groups(const OutputMesh& mesh, TextWriter& out) {
-  const bool named = !mesh.groups(2).empty() || !mesh.groups(1).empty() || !mesh.groups(0).empty();
-  if (!named && mesh.thicknesses().empty()) return;
-  begin_dataset(2467, out);
   int number = 0;
-  for (const int dimension : {2, 1, 0})
-    for (const NamedGroup& group : mesh.groups(dimension)) {
-      std::vector<int> members = mesh.members(dimension, group);
-      for (int& member : members)
-        member = dimension == 0 ? mesh.number(mesh.corner_node(member))
-                                : member + 1 + (dimension == 1 ? mesh.shell_count() : 0);
-      write_group(++number, group.name, members, dimension == 0 ? entity_node : entity_element, out);
-    }
-  for (const ThicknessGroup& group : mesh.thicknesses()) {
-    std::vector<int> members = group.members;
-    for (int& member : members) ++member;
-    write_group(++number, group.name, members, entity_element, out);
-  }
-  end_dataset(out);
+  mesh.for_each_group([&](int dimension, const NamedGroup& group) {
+    if (++number == 1) begin_dataset(2467, out);
+    if (dimension == 0)
+      write_group(number, group.name, mesh.node_numbers(dimension, group), entity_node, out);
+    else
+      write_group(number, group.name, mesh.element_numbers(dimension, group), entity_element, out);
+  });
+  if (number > 0) end_dataset(out);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/scope_exit.hpp>
 #include <cstring>
 #include <exception>
 #include <initializer_list>
@@ -53,27 +54,10 @@ class Complaints : public vtkOutputWindow {
   std::string first_;
 };
 
-/// Hears VTK's complaints during its lifetime.
-class Hearing {
- public:
-  Hearing() {
-    vtkOutputWindow::SetInstance(complaints_);
-    vtkObject::GlobalWarningDisplayOn();  // VTK makes no texts otherwise
-  }
-  ~Hearing() { vtkOutputWindow::SetInstance(nullptr); }
-  Hearing(const Hearing&) = delete;
-  Hearing& operator=(const Hearing&) = delete;
-  const std::string& first() const { return complaints_->first(); }
-
- private:
-  vtkNew<Complaints> complaints_;
-};
-
 /// VTK's messages have several lines. The first names the source, the last says what is wrong.
 std::string last_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  const std::size_t begin = text.find_last_of('\n');
-  if (begin != std::string::npos) text = text.substr(begin + 1);
+  text.resize(text.find_last_not_of("\n ") + 1);
+  text.erase(0, text.find_last_of('\n') + 1);
   // "vtkSTLReader (0x55d0): what is wrong"
   const std::size_t source = text.find("): ");
   return source == std::string::npos ? text : text.substr(source + 3);
@@ -81,11 +65,16 @@ std::string last_line(std::string text) {
 
 template <class Reader>
 vtkSmartPointer<vtkDataSet> read_with(Reader* reader, const std::string& path) {
-  const Hearing complaints;
+  const vtkNew<Complaints> complaints;
+  vtkOutputWindow::SetInstance(complaints);
+  BOOST_SCOPE_EXIT_ALL(&) {
+    vtkOutputWindow::SetInstance(nullptr);
+  };
+  vtkObject::GlobalWarningDisplayOn();  // VTK makes no texts otherwise
   reader->SetFileName(path.c_str());
   reader->Update();
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  const std::string& problem = complaints.first();
+  const std::string& problem = complaints->first();
   if (!problem.empty() || reader->GetErrorCode() != 0 || mesh == nullptr)
     throw failure(path, problem.empty() ? "VTK could not read it" : last_line(problem));
   if (mesh->GetNumberOfPoints() <= 0 || mesh->GetNumberOfCells() <= 0)
@@ -180,22 +169,22 @@ class CellImport {
       case VTK_POLYGON:
         if (count == 3) return add(cell, ElementShape::triangle, {0, 1, 2});
         if (count == 4) return add(cell, ElementShape::quad, {0, 1, 2, 3});
-        throw failure("",
-                      fmt::format("cell {} (counted from 0) is a polygon with {} corners: only triangles and "
-                                  "quads are read",
-                                  cell, count));
+        throw bad(cell,
+                  fmt::format("is a polygon with {} corners: only triangles and quads are read", count));
       default:
         if (const ElementType* known = find_element_type(&ElementType::vtk, type))
           return add(cell, known->shape, std::span(in_order).first(known->kept_nodes()));
-        throw failure(
-            "", fmt::format("cell {} (counted from 0) is of VTK's type {}: only triangles, quads, lines "
-                            "and points are read",
-                            cell, type));
+        throw bad(cell,
+                  fmt::format("is of VTK's type {}: only triangles, quads, lines and points are read", type));
     }
   }
 
  private:
   static constexpr std::array<int, 8> in_order{0, 1, 2, 3, 4, 5, 6, 7};
+
+  static Error bad(vtkIdType cell, const std::string& what) {
+    return failure("", fmt::format("cell {} (counted from 0) {}", cell, what));
+  }
 
   void add(vtkIdType cell, ElementShape shape, std::initializer_list<int> places) {
     add(cell, shape, std::span(places.begin(), places.size()));
@@ -212,8 +201,7 @@ class CellImport {
         element.cad = static_cast<int>(number) + 1;
     }
     for (const int place : places) {
-      if (place >= nodes_->GetNumberOfIds())
-        throw failure("", fmt::format("cell {} (counted from 0) has too few nodes", cell));
+      if (place >= nodes_->GetNumberOfIds()) throw bad(cell, "has too few nodes");
       element.nodes[element.node_count++] = nodes_->GetId(place) + 1;
     }
     for (const auto& [set, place] : sets_)

@@ -1,7 +1,6 @@
 /// The module libquadrille_vtk.so: writes meshes and sizes as .vtu with VTK; vtk_import.cpp reads. See
 /// modules.hpp.
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -27,109 +26,82 @@ namespace quadrille {
 
 namespace {
 
-/// Makes a VTK grid of a mesh: shell elements, then lines, then points, each with its CAD numbers.
-class GridMaker {
- public:
-  explicit GridMaker(const OutputMesh& mesh) : mesh_(mesh) {
-    constexpr const char* names[] = {"vertex", "edge", "face"};
-    for (int dimension = 0; dimension < 3; ++dimension) cad_[dimension]->SetName(names[dimension]);
-    q_->SetName("q");
-    thickness_->SetName("thickness");
-  }
+template <class Array, class Values>
+vtkNew<Array> array_of(const char* name, const Values& values) {
+  vtkNew<Array> array;
+  array->SetName(name);
+  for (const auto& value : values) array->InsertNextValue(value);
+  return array;
+}
 
-  vtkNew<vtkUnstructuredGrid> make(const std::vector<double>& qualities) {
-    for (const int dimension : {2, 1, 0})
-      for (int i = 0; i < mesh_.count(dimension); ++i) {
-        add(mesh_.element_nodes(dimension, i), mesh_.entity(dimension, i));
-        // Lines and points have no q: colored by q, they get the color of "not a number".
-        const bool shell = dimension == 2;
-        q_->InsertNextValue(!shell             ? std::numeric_limits<double>::quiet_NaN()
-                            : mesh_.is_quad(i) ? qualities[i]
-                                               : 0);
-        thickness_->InsertNextValue(shell ? mean_thickness(mesh_, i) : 0);
-      }
-    vtkNew<vtkUnstructuredGrid> grid;
-    grid->SetPoints(points());
-    grid->SetCells(types_, cells_);
-    for (const int dimension : {2, 1, 0}) grid->GetCellData()->AddArray(cad_[dimension]);
-    grid->GetCellData()->AddArray(q_);
-    if (!mesh_.thicknesses().empty()) grid->GetCellData()->AddArray(thickness_);
-    for (const std::string& name : mesh_.set_names()) grid->GetCellData()->AddArray(set_of(name));
-    return grid;
-  }
+/// A grid without cells yet.
+template <class Points>
+vtkNew<vtkUnstructuredGrid> grid_of(const Points& positions) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vector3& position : positions) points->InsertNextPoint(position.data());
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(points);
+  return grid;
+}
 
- private:
-  /// 1 for the cells in a set, 0 for others.
-  vtkNew<vtkUnsignedCharArray> set_of(const std::string& name) const {
-    vtkNew<vtkUnsignedCharArray> set;
-    set->SetName(array_of_set(name).c_str());
-    for (const int dimension : {2, 1, 0})
-      for (const char member : mesh_.is_in_set(dimension, name)) set->InsertNextValue(member);
-    return set;
+/// A VTK grid of a mesh: shell elements, then lines, then points, each with its CAD numbers.
+vtkNew<vtkUnstructuredGrid> mesh_grid(const OutputMesh& mesh, const std::vector<double>& qualities) {
+  std::vector<int> cad[3];  // by dimension: the number of the CAD entity, 0 for other cells
+  std::vector<double> q, thickness;
+  std::vector<Vector3> points;
+  for (const int node : mesh.nodes()) points.push_back(mesh.position(node));
+  vtkNew<vtkUnstructuredGrid> grid = grid_of(points);
+  for (const int dimension : {2, 1, 0})
+    for (int i = 0; i < mesh.count(dimension); ++i) {
+      const ElementNodes nodes = mesh.element_nodes(dimension, i);
+      std::array<vtkIdType, 9> ids;
+      std::transform(nodes.begin(), nodes.end(), ids.begin(),
+                     [&](int node) { return mesh.number(node) - 1; });
+      grid->InsertNextCell(nodes.type().vtk, nodes.count, ids.data());
+      for (int k = 0; k < 3; ++k) cad[k].push_back(k == dimension ? mesh.entity(dimension, i) : 0);
+      // Lines and points have no q: colored by q, they get the color of "not a number".
+      const bool shell = dimension == 2;
+      q.push_back(!shell ? std::numeric_limits<double>::quiet_NaN() : mesh.is_quad(i) ? qualities[i] : 0);
+      thickness.push_back(shell ? mean_thickness(mesh, i) : 0);
+    }
+  constexpr const char* names[] = {"vertex", "edge", "face"};
+  vtkCellData* data = grid->GetCellData();
+  for (const int dimension : {2, 1, 0})
+    data->AddArray(array_of<vtkIntArray>(names[dimension], cad[dimension]));
+  data->AddArray(array_of<vtkDoubleArray>("q", q));
+  if (!mesh.thicknesses().empty()) data->AddArray(array_of<vtkDoubleArray>("thickness", thickness));
+  for (const std::string& name : mesh.set_names()) {
+    std::vector<char> members;
+    for (const int dimension : {2, 1, 0}) {
+      const std::vector<char> own = mesh.is_in_set(dimension, name);
+      members.insert(members.end(), own.begin(), own.end());
+    }
+    data->AddArray(array_of<vtkUnsignedCharArray>(array_of_set(name).c_str(), members));
   }
-
-  void add(const ElementNodes& nodes, int number) {
-    std::array<vtkIdType, 9> ids;
-    std::transform(nodes.begin(), nodes.end(), ids.begin(), [&](int node) { return mesh_.number(node) - 1; });
-    cells_->InsertNextCell(nodes.count, ids.data());
-    types_->InsertNextValue(static_cast<unsigned char>(nodes.type().vtk));
-    for (int i = 0; i < 3; ++i) cad_[i]->InsertNextValue(i == nodes.dimension ? number : 0);
-  }
-
-  vtkNew<vtkPoints> points() const {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    points->SetNumberOfPoints(static_cast<vtkIdType>(mesh_.nodes().size()));
-    for (std::size_t i = 0; i < mesh_.nodes().size(); ++i)
-      points->SetPoint(static_cast<vtkIdType>(i), mesh_.point(static_cast<int>(i)).data());
-    return points;
-  }
-
-  const OutputMesh& mesh_;
-  vtkNew<vtkCellArray> cells_;
-  vtkNew<vtkUnsignedCharArray> types_;
-  vtkNew<vtkIntArray> cad_[3];  ///< by dimension: the number of the CAD entity, 0 for other cells
-  vtkNew<vtkDoubleArray> q_, thickness_;
-};
+  return grid;
+}
 
 /// The grid: triangles, then lines, with their CAD numbers; sizes and sources at points; the sources' names.
 vtkNew<vtkUnstructuredGrid> sizes_grid(const SizeMap& map) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  vtkNew<vtkDoubleArray> sizes, along;
-  vtkNew<vtkIntArray> sources, faces, edges;
-  vtkNew<vtkStringArray> names;
-  sizes->SetName("size");
-  along->SetName("size_along");
-  sources->SetName("source");
-  faces->SetName("face");
-  edges->SetName("edge");
-  names->SetName("sources");
-  for (const Vector3& point : map.points) points->InsertNextPoint(point.data());
-  for (const double size : map.sizes) sizes->InsertNextValue(size);
-  for (const double size : map.along) along->InsertNextValue(size);
-  for (const int source : map.rulers) sources->InsertNextValue(source);
-  for (const SizeMap::Source& source : map.sources) names->InsertNextValue(source.name);
-  vtkNew<vtkCellArray> cells;
-  vtkNew<vtkUnsignedCharArray> types;
+  vtkNew<vtkUnstructuredGrid> grid = grid_of(map.points);
+  std::vector<int> faces, edges;
+  std::vector<std::string> names;
   const auto add = [&](const auto& nodes, int type, int face, int edge) {
-    cells->InsertNextCell(static_cast<int>(nodes.size()));
-    for (const int node : nodes) cells->InsertCellPoint(node);
-    types->InsertNextValue(static_cast<unsigned char>(type));
-    faces->InsertNextValue(face);
-    edges->InsertNextValue(edge);
+    const std::vector<vtkIdType> ids(nodes.begin(), nodes.end());
+    grid->InsertNextCell(type, static_cast<vtkIdType>(ids.size()), ids.data());
+    faces.push_back(face);
+    edges.push_back(edge);
   };
   for (std::size_t i = 0; i < map.triangles.size(); ++i) add(map.triangles[i], VTK_TRIANGLE, map.faces[i], 0);
   for (const SizeMap::Line& line : map.lines) add(line.points, VTK_LINE, 0, line.edge);
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetPoints(points);
-  grid->SetCells(types, cells);
-  grid->GetPointData()->AddArray(sizes);
-  grid->GetPointData()->AddArray(along);
-  grid->GetPointData()->AddArray(sources);
-  grid->GetCellData()->AddArray(faces);
-  grid->GetCellData()->AddArray(edges);
-  grid->GetFieldData()->AddArray(names);
+  for (const SizeMap::Source& source : map.sources) names.push_back(source.name);
+  grid->GetPointData()->AddArray(array_of<vtkDoubleArray>("size", map.sizes));
+  grid->GetPointData()->AddArray(array_of<vtkDoubleArray>("size_along", map.along));
+  grid->GetPointData()->AddArray(array_of<vtkIntArray>("source", map.rulers));
+  grid->GetCellData()->AddArray(array_of<vtkIntArray>("face", faces));
+  grid->GetCellData()->AddArray(array_of<vtkIntArray>("edge", edges));
+  grid->GetFieldData()->AddArray(array_of<vtkStringArray>("sources", names));
   return grid;
 }
 
@@ -152,7 +124,7 @@ QUADRILLE_EXPORT const char* quadrille_vtk_version() {
 QUADRILLE_EXPORT std::string quadrille_vtk_file(const quadrille::OutputMesh& mesh,
                                                 const std::vector<double>& qualities,
                                                 std::string& bytes) try {
-  bytes = quadrille::vtu_bytes(quadrille::GridMaker(mesh).make(qualities));
+  bytes = quadrille::vtu_bytes(quadrille::mesh_grid(mesh, qualities));
   return bytes.empty() ? "VTK could not write the mesh" : "";
 } catch (const std::exception& error) {
   return quadrille::sentence_of(error);

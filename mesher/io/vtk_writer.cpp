@@ -11,15 +11,6 @@ namespace quadrille {
 
 namespace {
 
-/// Writes one line per shell element.
-template <class Write>
-void write_lines(const OutputMesh& mesh, TextWriter& out, Write write) {
-  write_in_order(mesh.shell_count(), out, [&](int i, TextWriter& to) {
-    write(mesh.shell_nodes(i), to);
-    to << '\n';
-  });
-}
-
 /// The name of an array as VTK writes it: special characters as % and their codes.
 std::string array_name(const std::string& name) {
   std::string result;
@@ -55,14 +46,17 @@ void write_vtk(const Writing& writing, TextWriter& out) {
       << "\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " << nodes << " double\n";
   write_in_order(nodes, out, [&](int i, TextWriter& to) { to << mesh.point(i) << '\n'; });
   std::size_t numbers = 0;
-  for (int i = 0; i < mesh.shell_count(); ++i) numbers += 1 + mesh.shell_nodes(i).count;
+  for (int i = 0; i < mesh.shell_count(); ++i) numbers += 1 + mesh.element_nodes(2, i).count;
   out << "CELLS " << mesh.shell_count() << ' ' << numbers << '\n';
-  write_lines(mesh, out, [&](const ElementNodes& element, TextWriter& to) {
+  write_in_order(mesh.shell_count(), out, [&](int i, TextWriter& to) {
+    const ElementNodes element = mesh.element_nodes(2, i);
     to << element.count;
     for (const int node : element) to << ' ' << mesh.number(node) - 1;
+    to << '\n';
   });
   out << "CELL_TYPES " << mesh.shell_count() << '\n';
-  write_lines(mesh, out, [](const ElementNodes& element, TextWriter& to) { to << element.type().vtk; });
+  write_in_order(mesh.shell_count(), out,
+                 [&](int i, TextWriter& to) { to << mesh.element_nodes(2, i).type().vtk << '\n'; });
   write_arrays(writing, out);
 }
 

@@ -73,18 +73,16 @@ bool XDisplay::start_server() {
 }
 
 XDisplay::XDisplay() {
-  const char* old = std::getenv("DISPLAY");
-  had_display_ = old != nullptr;
-  if (had_display_) old_display_ = old;
+  if (const char* old = std::getenv("DISPLAY")) old_display_ = old;
   if (start_server()) return;
-  if (had_display_) ::setenv("DISPLAY", old_display_.c_str(), 1);
-  if (!had_display_ || !can_open(old_display_.c_str()))
+  if (old_display_) ::setenv("DISPLAY", old_display_->c_str(), 1);
+  if (!old_display_ || !can_open(old_display_->c_str()))
     problem_ = "there is no display, and Xvfb (package xvfb) cannot be started";
 }
 
 XDisplay::~XDisplay() {
-  if (had_display_)
-    ::setenv("DISPLAY", old_display_.c_str(), 1);
+  if (old_display_)
+    ::setenv("DISPLAY", old_display_->c_str(), 1);
   else
     ::unsetenv("DISPLAY");
   if (server_ <= 0) return;

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 
 namespace quadrille {
@@ -16,7 +17,6 @@ class XDisplay {
   XDisplay(const XDisplay&) = delete;
   XDisplay& operator=(const XDisplay&) = delete;
 
-  bool usable() const { return problem_.empty(); }
   /// Why there is no display, as one sentence; empty when there is.
   const std::string& problem() const { return problem_; }
 
@@ -24,8 +24,7 @@ class XDisplay {
   bool start_server();
 
   pid_t server_ = -1;
-  bool had_display_ = false;
-  std::string old_display_;
+  std::optional<std::string> old_display_;
   std::string problem_;
 };
 

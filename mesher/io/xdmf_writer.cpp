@@ -27,7 +27,7 @@ void write_topology(const OutputMesh& mesh, TextWriter& out) {
   const int count = mesh.shell_count();
   int least = 9, most = 0, numbers = 0;
   for (int i = 0; i < count; ++i) {
-    const int nodes = mesh.shell_nodes(i).count;
+    const int nodes = mesh.element_nodes(2, i).count;
     least = std::min(least, nodes);
     most = std::max(most, nodes);
     numbers += 1 + nodes;
@@ -37,7 +37,7 @@ void write_topology(const OutputMesh& mesh, TextWriter& out) {
       << "\" NumberOfElements=\"" << count << "\">\n";
   write_item(integer, mixed ? std::to_string(numbers) : fmt::format("{} {}", count, most), out, [&] {
     write_in_order(count, out, [&](int i, TextWriter& to) {
-      const ElementNodes element = mesh.shell_nodes(i);
+      const ElementNodes element = mesh.element_nodes(2, i);
       if (mixed) to << element.type().xdmf_code << ' ';
       for (const int node : element) to << mesh.number(node) - 1 << ' ';
       to << '\n';

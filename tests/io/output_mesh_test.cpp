@@ -62,7 +62,7 @@ TEST(OutputMesh, PutsTheNinthNodeInTheMiddleOfTheElement) {
   const OutputMesh output(mesh, {}, 9);
   EXPECT_EQ(output.nodes().size(), mesh.points.size() + mesh.quads.size());
   for (int quad = 0; quad < output.quad_count(); ++quad) {
-    const ElementNodes nodes = output.shell_nodes(quad);
+    const ElementNodes nodes = output.element_nodes(2, quad);
     ASSERT_EQ(nodes.count, 9);
     Vector3 middle = Vector3::Zero();
     for (int k = 0; k < 4; ++k) middle += 0.25 * output.position(nodes.nodes[k]);
@@ -77,7 +77,7 @@ TEST(OutputMesh, GroupsFacesByThickness) {
   const OutputMesh alike(mesh);
   ASSERT_EQ(alike.thicknesses().size(), 1U);
   EXPECT_EQ(alike.thicknesses()[0].name, "Thickness2.5");
-  EXPECT_EQ(alike.thicknesses()[0].faces, (std::vector<int>{1, 2}));
+  EXPECT_EQ(alike.thicknesses()[0].entities, (std::vector<int>{1, 2}));
   EXPECT_EQ(mean_thickness(alike, 0), 2.5);
   mesh.thicknesses = {2.5, 1};
   EXPECT_EQ(OutputMesh(mesh).thicknesses().size(), 2U);
