@@ -202,12 +202,22 @@ class Sweeps {
       : mesh_(mesh),
         active_(mesh.points.size(), 1),
         next_active_(mesh.points.size(), 0),
-        row_limits_(row_limits(mesh)) {}
+        row_limits_(row_limits(mesh)) {
+    // Mark nodes where the surface turns far from one node to the next, as around a tube of four coarse
+    // quads. There, averages in tangent planes would pull a node further to the side to which it leans.
+    constexpr double least_cosine = 0.1;
+    turns_sharply_.assign(mesh_.points.size(), 0);
+    for (const auto& quad : mesh_.quads)
+      for (int k = 0; k < 4; ++k) {
+        const int a = quad[k], b = quad[(k + 1) & 3];
+        if (mesh_.normals[a].dot(mesh_.normals[b]) < least_cosine) turns_sharply_[a] = turns_sharply_[b] = 1;
+      }
+  }
 
   /// Moves each active node once; false when nothing is active any more.
   bool sweep() {
     const bool any = mesh_.visit_free([&](int node) {
-      if (!active_[node] || !relax(node)) return false;
+      if (!active_[node] || turns_sharply_[node] || !relax(node)) return false;
       mesh_.mark_around(node, next_active_);
       return true;
     });
@@ -278,7 +288,7 @@ class Sweeps {
   }
 
   SmoothedMesh& mesh_;
-  std::vector<char> active_, next_active_;
+  std::vector<char> active_, next_active_, turns_sharply_;
   std::vector<RowLimit> row_limits_;  ///< (points)
 };
 
