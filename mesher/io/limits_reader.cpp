@@ -56,6 +56,7 @@ class LimitsReader {
       while (criterion < criterion_count && criteria_info[criterion].name != key) ++criterion;
       if (criterion == criterion_count) {
         std::vector<std::string_view> known;
+        known.reserve(criteria_info.size());
         for (const CriterionInfo& info : criteria_info) known.push_back(info.name);
         fail(fmt::format("{} is not one of the criteria {}", key, fmt::join(known, ", ")));
       }

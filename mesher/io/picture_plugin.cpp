@@ -28,6 +28,7 @@
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/module_loader.hpp"
+#include "geometry/base/whole_number.hpp"
 #include "mesher/io/modules.hpp"
 #include "mesher/io/x_display.hpp"
 #include "mesher/mesh/sides.hpp"
@@ -256,8 +257,8 @@ vtkNew<vtkActor> suppressed_actor(const ShellMesh& mesh, double step, double wid
     for (std::size_t k = 0; k + 1 < edge.line.size(); ++k) {
       const Vector3 &from = edge.line[k], &to = edge.line[k + 1];
       constexpr double max_dots = 1000;
-      const double count = std::clamp(std::ceil((to - from).norm() / step), 1.0, max_dots);
-      for (double i = 0; i < count; ++i) {
+      const int count = to_int(std::clamp(std::ceil((to - from).norm() / step), 1.0, max_dots));
+      for (int i = 0; i < count; ++i) {
         for (const double part : {0.25, 0.75}) ends.emplace_back(from + (i + part) / count * (to - from));
         dots.push_back({static_cast<int>(ends.size()) - 2, static_cast<int>(ends.size()) - 1});
       }
