@@ -3,11 +3,22 @@
 #include "geometry/midsurface/gaps.hpp"
 
 #include <BRepAlgoAPI_Common.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepLib.hxx>
-#include <BRepOffset_MakeSimpleOffset.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepTools.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomFill.hxx>
+#include <Geom_OffsetSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
 #include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <cmath>
@@ -135,31 +146,87 @@ std::list<BRepAlgoAPI_Common> halves(const SkinFace& face, const ExecutionContex
   return result;
 }
 
+/// A face offset along its normals: the same parametric curves on the offset surface.
+class OffsetFace {
+ public:
+  OffsetFace(const TopoDS_Face& face, double distance) : face_(face) {
+    const double along = face.Orientation() == TopAbs_REVERSED ? -distance : distance;
+    const Handle(Geom_OffsetSurface) offset = new Geom_OffsetSurface(BRep_Tool::Surface(face), along);
+    surface_ = offset->Surface();
+    if (surface_.IsNull()) surface_ = offset;
+  }
+
+  TopoDS_Edge edge(const TopoDS_Edge& edge) const {
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face_, first, last);
+    TopoDS_Edge result = BRepBuilderAPI_MakeEdge(curve, surface_, first, last).Edge();
+    BRepLib::BuildCurve3d(result);
+    result.Orientation(edge.Orientation());
+    return result;
+  }
+
+  TopoDS_Face face() const {
+    const TopoDS_Wire outer = BRepTools::OuterWire(face_);
+    const auto moved = [&](const TopoDS_Wire& old) {
+      BRepBuilderAPI_MakeWire wire;
+      for (BRepTools_WireExplorer it(old, face_); it.More(); it.Next()) wire.Add(edge(it.Current()));
+      return wire.Wire();
+    };
+    BRepBuilderAPI_MakeFace result(surface_, moved(outer));
+    for (TopExp_Explorer it(face_, TopAbs_WIRE); it.More(); it.Next())
+      if (!it.Current().IsSame(outer)) result.Add(moved(TopoDS::Wire(it.Current())));
+    return result.Face();
+  }
+
+ private:
+  TopoDS_Face face_;
+  Handle(Geom_Surface) surface_;
+};
+
+/// The ruled face between two edges with the same parameters; on a plane if possible.
+TopoDS_Face ruled_face(const TopoDS_Edge& a, const TopoDS_Edge& b) {
+  std::array<Handle(Geom_Curve), 2> curves;
+  std::array<gp_Pnt, 4> ends;
+  for (int side = 0; side < 2; ++side) {
+    double first = 0, last = 0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(side == 0 ? a : b, first, last);
+    curves[side] = new Geom_TrimmedCurve(curve, first, last);
+    ends[2 * side] = curve->Value(first);
+    ends[2 * side + 1] = curve->Value(last);
+  }
+  BRepBuilderAPI_MakeWire border(a);
+  border.Add(BRepBuilderAPI_MakeEdge(ends[0], ends[2]));
+  border.Add(BRepBuilderAPI_MakeEdge(ends[1], ends[3]));
+  border.Add(b);
+  if (border.IsDone()) {
+    BRepBuilderAPI_MakeFace flat(border.Wire(), Standard_True);
+    if (flat.IsDone()) return flat;
+  }
+  return BRepBuilderAPI_MakeFace(GeomFill::Surface(curves[0], curves[1]), Precision::Confusion());
+}
+
 /// Adds the solid between two distances along a face's normals. \param numbers by edge, for the sides; other
-/// sides and the two ends get `own`. \return false if the face has a pole or OpenCASCADE fails.
+/// sides and the two ends get `own`. \return false if the face has a pole or its parts cannot be sewn to a
+/// closed solid.
 bool add_thick_face(const TopoDS_Face& face, double from, double to,
-                    const TopTools_DataMapOfShapeInteger& numbers, int own, NumberedSolids& result) {
-  for (const TopoDS_Shape& edge : list_of(face, TopAbs_EDGE))
-    if (BRep_Tool::Degenerated(TopoDS::Edge(edge))) return false;
-  BRepOffset_MakeSimpleOffset start(face, from), whole;
-  start.Perform();
-  if (!start.IsDone()) return false;
-  whole.Initialize(start.GetResultShape(), to - from);
-  whole.SetBuildSolidFlag(Standard_True);
-  whole.Perform();
-  if (!whole.IsDone() || whole.GetResultShape().ShapeType() != TopAbs_SOLID) return false;
-  TopoDS_Solid solid = TopoDS::Solid(whole.GetResultShape());
+                    const TopTools_DataMapOfShapeInteger& numbers, int own, const ExecutionContext& context,
+                    NumberedSolids& result) {
+  const OffsetFace start(face, from), end(face, to);
+  std::vector<std::pair<TopoDS_Shape, int>> parts{{start.face(), own}, {end.face(), own}};
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(it.Current());
+    if (BRep_Tool::Degenerated(edge)) return false;
+    parts.emplace_back(ruled_face(start.edge(edge), end.edge(edge)),
+                       numbers.IsBound(edge) ? numbers.Find(edge) : own);
+  }
+  BRepBuilderAPI_Sewing sewing(1e-5 * std::abs(to - from));
+  for (const auto& [part, number] : parts) sewing.Add(part);
+  under_limit(context, [&](const Message_ProgressRange& range) { sewing.Perform(range); });
+  if (sewing.SewedShape().ShapeType() != TopAbs_SHELL) return false;
+  TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape()));
   if (!BRepLib::OrientClosedSolid(solid)) return false;
   result.solids.push_back(solid);
-  for (const TopoDS_Shape& side : list_of(solid, TopAbs_FACE)) {
-    const TopTools_IndexedMapOfShape edges = map_of(side, TopAbs_EDGE);
-    int number = own;
-    for (const TopoDS_Edge& edge : edges_of(face)) {
-      const bool at_side = numbers.IsBound(edge) && !side.IsSame(start.GetResultShape());
-      if (at_side && edges.Contains(start.Generated(edge))) number = numbers.Find(edge);
-    }
-    result.numbers.Bind(side, number);
-  }
+  for (const auto& [part, number] : parts) result.numbers.Bind(sewing.Modified(part), number);
   return true;
 }
 
@@ -270,7 +337,7 @@ class GapFinder {
       }
       for (TopExp_Explorer it(half.Shape(), TopAbs_FACE); it.More(); it.Next()) {
         if (!add_thick_face(TopoDS::Face(it.Current()), -depth, length - depth, numbers, face(of).number(),
-                            result))
+                            context_, result))
           return {};
       }
     }
