@@ -43,8 +43,8 @@ struct QUADRILLE_API Setting {
     void (*set)(SizingOptions&, const Value&);  ///< throws std::invalid_argument
     Value (*get)(const SizingOptions&);         ///< in the form that set() takes
   };
-  using EntryList = Accessors<std::vector<std::string>>;
-  using Text = Accessors<std::string>;
+  using EntryList = Accessors<std::vector<std::string>>;  ///< for entries, one text each
+  using Text = Accessors<std::string>;                    ///< for one text
   /// Where the value is kept. The type determines what the setting takes: a number, a whole number, yes or
   /// no, one word of `choices` (Strategy, MshVersion, Gradation, InpElement), a file, faces, sizes on faces,
   /// edges and vertices, several words of `choices` (GroupKinds), entries, a text.

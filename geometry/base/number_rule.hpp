@@ -17,6 +17,7 @@ struct NumberRule {
   bool whole = false;                                     ///< only whole numbers
   bool below_high = false;                                ///< the value `high` itself is not allowed
 
+  /// Whether the value lies in the range.
   bool allows(double value) const {
     return std::isfinite(value) && (above_low ? value > low : value >= low) &&
            (below_high ? value < high : value <= high) && (!whole || value == std::floor(value));
@@ -33,6 +34,7 @@ struct NumberRule {
   }
 };
 
+/// Numbers above zero.
 constexpr NumberRule positive{.above_low = true};
 
 }  // namespace quadrille
