@@ -3,9 +3,7 @@
 #include "geometry/cad/curve_ends.hpp"
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRep_Tool.hxx>
 #include <GeomProjLib.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 

@@ -2,10 +2,10 @@
 
 #include "geometry/cad/orientation.hpp"
 
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
 #include <algorithm>
 #include <map>
+
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -15,8 +15,7 @@ class Turning {
  public:
   Turning(std::vector<TopoDS_Shape>& faces, const std::vector<char>& fixed)
       : faces_(faces), fixed_(fixed), links_(faces.size()) {
-    TopTools_IndexedMapOfShape edges;
-    for (const TopoDS_Shape& face : faces) TopExp::MapShapes(face, TopAbs_EDGE, edges);
+    const TopTools_IndexedMapOfShape edges = map_of(faces, TopAbs_EDGE);
     uses_.resize(edges.Extent() + 1);
     for (int face = 0; face < static_cast<int>(faces.size()); ++face) {
       if (fixed_[face]) continue;
@@ -45,7 +44,14 @@ class Turning {
       std::vector<int> piece{seed};
       std::map<int, bool> opposite{{seed, false}};
       bool one_sided = false;
-      for (std::size_t at = 0; at < piece.size(); ++at) visit(piece[at], piece, opposite, one_sided);
+      for (std::size_t at = 0; at < piece.size(); ++at) {
+        for (const auto& [other, alike] : links_[piece[at]]) {
+          const bool is_opposite = alike == opposite[piece[at]];
+          const auto [entry, fresh] = opposite.try_emplace(other, is_opposite);
+          if (fresh) piece.push_back(other);
+          one_sided |= entry->second != is_opposite;
+        }
+      }
       for (const int face : piece) met[face] = 1;
       if (one_sided) continue;
       const auto against = std::count_if(piece.begin(), piece.end(), [&](int f) { return opposite[f]; });
@@ -71,17 +77,6 @@ class Turning {
     int other;
     bool alike;
   };
-
-  /// Adds the neighbors of a face to its piece, with their orientations.
-  void visit(int face, std::vector<int>& piece, std::map<int, bool>& opposite, bool& one_sided) const {
-    for (const auto& [other, alike] : links_[face]) {
-      const auto [entry, fresh] = opposite.try_emplace(other, alike == opposite[face]);
-      if (fresh)
-        piece.push_back(other);
-      else if (entry->second != (alike == opposite[face]))
-        one_sided = true;
-    }
-  }
 
   static bool is_unlike(const std::vector<Use>& uses, const std::vector<char>& turned) {
     if (uses.size() != 2) return uses.size() > 2;

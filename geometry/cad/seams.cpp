@@ -5,16 +5,10 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepTools_WireExplorer.hxx>
-#include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Face.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <array>
@@ -24,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "geometry/base/vector.hpp"
+#include "geometry/cad/shape_parts.hpp"
 
 namespace quadrille {
 
@@ -145,8 +140,7 @@ bool lacks_seam(const TopoDS_Face& face) {
 }
 
 std::vector<EdgePiece> add_seams(std::vector<TopoDS_Face>& faces, std::vector<std::string>& problems) {
-  TopTools_IndexedMapOfShape before, after;
-  for (const TopoDS_Face& face : faces) TopExp::MapShapes(face, TopAbs_EDGE, before);
+  const TopTools_IndexedMapOfShape before = map_of(faces, TopAbs_EDGE);
   const Handle(ShapeBuild_ReShape) context = new ShapeBuild_ReShape;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const TopoDS_Shape now = context->Apply(faces[i]);
@@ -156,7 +150,7 @@ std::vector<EdgePiece> add_seams(std::vector<TopoDS_Face>& faces, std::vector<st
     problems.push_back(fmt::format("Face{} lacked a seam: shape healing has made one", i + 1));
   }
   for (TopoDS_Face& face : faces) face = TopoDS::Face(context->Apply(face));
-  for (const TopoDS_Face& face : faces) TopExp::MapShapes(face, TopAbs_EDGE, after);
+  const TopTools_IndexedMapOfShape after = map_of(faces, TopAbs_EDGE);
   std::vector<EdgePiece> pieces;
   for (int i = 1; i <= before.Extent(); ++i) {
     if (after.Contains(before(i))) continue;

@@ -56,22 +56,20 @@ bool lies_on(const TopoDS_Face& face, const TopoDS_Face& other, double tolerance
 Sewn sew(const TopoDS_Shape& shape, double tolerance) {
   const TopTools_IndexedMapOfShape faces = map_of(shape, TopAbs_FACE);
   const int edges_before = map_of(shape, TopAbs_EDGE).Extent();
-  TopTools_IndexedMapOfShape edges_of_sewn;
   BRepBuilderAPI_Sewing sewing(tolerance);
   sewing.SetNonManifoldMode(Standard_True);
   for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
   sewing.Perform();
   // Sewn shells have their faces in another order. Exchanging the faces keeps the model's order and solids.
   Faces sewn;
-  for (int i = 1; i <= faces.Extent(); ++i) {
+  for (int i = 1; i <= faces.Extent(); ++i)
     sewn.push_back(sewing.IsModified(faces(i)) ? sewing.Modified(faces(i)) : TopoDS_Shape(faces(i)));
-    TopExp::MapShapes(sewn.back(), TopAbs_EDGE, edges_of_sewn);
-  }
   Sewn result;
   const bool all_are_faces = std::all_of(sewn.begin(), sewn.end(), [](const TopoDS_Shape& face) {
     return !face.IsNull() && face.ShapeType() == TopAbs_FACE;
   });
   if (all_are_faces) {
+    const TopTools_IndexedMapOfShape edges_of_sewn = map_of(sewn, TopAbs_EDGE);
     if (edges_of_sewn.Extent() < edges_before)
       result.orientation = orient_alike(sewn, faces_in_solids(shape, faces));
     result.coincident = coincident_faces(sewn, edges_of_sewn, tolerance);

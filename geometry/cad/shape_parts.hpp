@@ -22,7 +22,15 @@ inline TopTools_IndexedMapOfShape map_of(const TopoDS_Shape& shape, TopAbs_Shape
   return parts;
 }
 
-/// The same as a list. For GCC 16, OpenCASCADE's iterators make no range.
+/// The same for a list of shapes.
+template <class Shape>
+TopTools_IndexedMapOfShape map_of(const std::vector<Shape>& shapes, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape parts;
+  for (const TopoDS_Shape& shape : shapes) TopExp::MapShapes(shape, kind, parts);
+  return parts;
+}
+
+/// The parts of a shape as a list. For GCC 16, OpenCASCADE's iterators make no range.
 inline std::vector<TopoDS_Shape> list_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
   const TopTools_IndexedMapOfShape parts = map_of(shape, kind);
   return {parts.cbegin(), parts.cend()};

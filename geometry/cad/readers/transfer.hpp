@@ -13,9 +13,11 @@
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -82,7 +84,7 @@ class HealingScope {
 /// Whether the wires of a face touch themselves or each other at a vertex, and an edge bounds the face from
 /// both sides (a seam or a slit). ShapeFix_Face::FixLoopWire then joins pieces by ends that TopExp::Vertices
 /// takes from a hash map of addresses, so the order and numbers of the edges change from run to run.
-inline bool touches_beside_seam(const TopoDS_Face& face) {
+inline bool touches_beside_seam(const TopoDS_Shape& face) {
   TopTools_MapOfShape once, twice;
   for (const TopoDS_Edge& edge : edges_of(face))
     if (!once.Add(edge)) twice.Add(edge);
@@ -97,13 +99,6 @@ inline bool touches_beside_seam(const TopoDS_Face& face) {
       if (!ends.IsBound(vertex)) ends.Bind(vertex, 0);
       if (++ends.ChangeFind(vertex) > 2) return true;
     }
-  }
-  return false;
-}
-
-inline bool has_faces_that_touch_beside_seam(const TopoDS_Shape& shape) {
-  for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next()) {
-    if (touches_beside_seam(TopoDS::Face(it.Current()))) return true;
   }
   return false;
 }
@@ -127,7 +122,8 @@ template <class Reader, class NamesOf>
 std::string transfer(const std::string& path, const char* format, NamedShape& read, NamesOf names_of) {
   try {
     bool readable = read_file<Reader>(path, true, read, names_of);
-    if (readable && has_faces_that_touch_beside_seam(read.shape))
+    const auto faces = readable ? list_of(read.shape, TopAbs_FACE) : std::vector<TopoDS_Shape>();
+    if (std::any_of(faces.begin(), faces.end(), touches_beside_seam))
       readable = read_file<Reader>(path, false, read, names_of);
     return readable ? std::string() : fmt::format("{} is not a readable {} file", path, format);
   } catch (const Standard_Failure& problem) {
