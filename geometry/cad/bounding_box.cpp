@@ -6,7 +6,6 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
 #include <Eigen/Core>
 #include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
@@ -15,7 +14,7 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/cad/coarse_domain.hpp"
+#include "geometry/base/trimmed_domain.hpp"
 
 namespace quadrille {
 
@@ -146,7 +145,7 @@ void extend_to(Reach& known, const Reach& own, double margin, const Measure& mea
 
 }  // namespace
 
-BoundingBox bounding_box(const CadShape& shape) {
+Eigen::AlignedBox3d bounding_box(const CadShape& shape) {
   IdVector<FaceId, Reach> own(shape.faces.size());
   Reach wide = nowhere, known = nowhere;
   double tolerance = 0;
@@ -168,7 +167,7 @@ BoundingBox bounding_box(const CadShape& shape) {
       known = known.max(reach_of(to_vector(curve.Value(edge.first + share * (edge.last - edge.first)))));
   }
   wide = wide.max(known);
-  if (wide[0] == -INFINITY) return {};
+  if (wide[0] == -INFINITY) return Eigen::AlignedBox3d(Vector3(0, 0, 0));
   // Sides that are right within tolerances stay unchanged, and so do the default sizes, which depend on them.
   const double margin = 1e-5 * diagonal_of(wide) + 2 * tolerance;
   if (is_finite(wide) && (wide > known + margin).any()) {

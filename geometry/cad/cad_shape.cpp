@@ -26,9 +26,9 @@ CadShape::CadShape(const TopoDS_Shape& source, std::string shape_name)
     : name(std::move(shape_name)), shape(with_all_curves(source, problems)) {
   read_topology();
   trust_curve_ends(*this);
-  const BoundingBox box = bounding_box(*this);
-  box_min = box.low;
-  box_max = box.high;
+  const Eigen::AlignedBox3d box = bounding_box(*this);
+  box_min = box.min();
+  box_max = box.max();
 }
 
 void CadShape::read_topology() {
@@ -62,7 +62,11 @@ void CadShape::read_topology() {
     TopExp::MapShapes(face, TopAbs_EDGE, edge_map);
     TopExp::MapShapes(face, TopAbs_VERTEX, vertex_map);
   }
-  read_vertices(vertex_map);
+  for (int i = 1; i <= vertex_map.Extent(); ++i) {
+    const TopoDS_Vertex& vertex = TopoDS::Vertex(vertex_map(i));
+    vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
+    vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
+  }
   read_edges(edge_map, vertex_map, vertex_ids(vertex_map, own_vertices, sources));
   for (const EdgePiece& piece : pieces) {
     const int index = edge_map.FindIndex(piece.piece);
@@ -73,23 +77,13 @@ void CadShape::read_topology() {
   measure_edges();
 }
 
-void CadShape::read_vertices(const TopTools_IndexedMapOfShape& vertex_map) {
-  vertices.reserve(vertex_map.Extent());
-  for (int i = 1; i <= vertex_map.Extent(); ++i) {
-    const TopoDS_Vertex& vertex = TopoDS::Vertex(vertex_map(i));
-    vertices.push_back(to_vector(BRep_Tool::Pnt(vertex)));
-    vertex_tolerances.push_back(BRep_Tool::Tolerance(vertex));
-  }
-}
-
 IdVector<VertexId, VertexId> CadShape::vertex_ids(const TopTools_IndexedMapOfShape& vertex_map,
                                                   int own_vertices,
                                                   const std::vector<TopoDS_Face>& sources) const {
   IdVector<VertexId, VertexId> ids(vertices.size());
   for (const VertexId vertex : vertices.ids()) ids[vertex] = vertex;
   if (own_vertices == vertex_map.Extent()) return ids;
-  TopTools_IndexedMapOfShape used;
-  for (const TopoDS_Face& face : sources) TopExp::MapShapes(face, TopAbs_VERTEX, used);
+  const TopTools_IndexedMapOfShape used = map_of(sources, TopAbs_VERTEX);
   for (auto place = ids.begin() + own_vertices; place != ids.end(); ++place) {
     VertexId& added = *place;
     for (const VertexId own : IdRange<VertexId>(own_vertices)) {
@@ -197,6 +191,24 @@ void CadShape::read_face(FaceId id, const TopoDS_Face& source, const TopTools_In
     }
     if (!wire.coedges.empty()) face.wires.push_back(std::move(wire));
   }
+}
+
+TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face) {
+  constexpr int intervals = 16;
+  std::vector<TrimmedDomain::Segment> segments;
+  for (const CadWire& wire : face.wires) {
+    for (const Coedge& coedge : wire.coedges) {
+      if (coedge.internal) continue;
+      const CadEdge& edge = shape.edges[coedge.edge];
+      Vector2 from = parametric_point(coedge, edge.first);
+      for (int i = 1; i <= intervals; ++i) {
+        const Vector2 to = parametric_point(coedge, edge.first + (edge.last - edge.first) * i / intervals);
+        segments.push_back({from, to});
+        from = to;
+      }
+    }
+  }
+  return TrimmedDomain(std::move(segments));
 }
 
 }  // namespace quadrille

@@ -11,19 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "geometry/base/trimmed_domain.hpp"
 #include "geometry/base/vector.hpp"
 #include "geometry/cad/face_names.hpp"
 #include "geometry/cad/ids.hpp"
 
 namespace quadrille {
 
-inline Vector3 to_vector(const gp_XYZ& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-inline Vector3 to_vector(const gp_Pnt& p) {
-  return {p.X(), p.Y(), p.Z()};
-}
-inline Vector3 to_vector(const gp_Vec& p) {
+/// \param p a point, vector or direction of OpenCASCADE.
+template <class Triple>
+Vector3 to_vector(const Triple& p) {
   return {p.X(), p.Y(), p.Z()};
 }
 
@@ -124,7 +121,6 @@ class CadShape {
 
  private:
   void read_topology();
-  void read_vertices(const TopTools_IndexedMapOfShape& vertex_map);
   /// (vertices in the map) their ids. A new vertex that replaces one of the model's own vertices gets the id
   /// of that vertex.
   IdVector<VertexId, VertexId> vertex_ids(const TopTools_IndexedMapOfShape& vertex_map, int own_vertices,
@@ -135,5 +131,8 @@ class CadShape {
   void read_face(FaceId id, const TopoDS_Face& face, const TopTools_IndexedMapOfShape& edge_map,
                  const TopTools_IndexedMapOfShape& vertex_map);
 };
+
+/// The region of a face in its parameter plane, with each edge approximated by 16 chords.
+TrimmedDomain coarse_domain(const CadShape& shape, const CadFace& face);
 
 }  // namespace quadrille

@@ -11,7 +11,6 @@
 #include "geometry/base/process_usage.hpp"
 #include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/cad_shape.hpp"
-#include "geometry/cad/coarse_domain.hpp"
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 

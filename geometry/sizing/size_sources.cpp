@@ -12,7 +12,6 @@
 #include "geometry/base/place_text.hpp"
 #include "geometry/base/trimmed_domain.hpp"
 #include "geometry/base/whole_number.hpp"
-#include "geometry/cad/coarse_domain.hpp"
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/sizing/face_gaps.hpp"
 #include "geometry/surfaces/face_surface.hpp"

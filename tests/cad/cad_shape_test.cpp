@@ -1,6 +1,6 @@
 /// The outline of a face in its parameter plane, by sixteen chords for each edge.
 
-#include "geometry/cad/coarse_domain.hpp"
+#include "geometry/cad/cad_shape.hpp"
 
 #include <gtest/gtest.h>
 
