@@ -26,10 +26,6 @@ namespace quadrille {
 
 namespace {
 
-Vector3 direction(const gp_Dir& d) {
-  return {d.X(), d.Y(), d.Z()};
-}
-
 /// The angle equal to `angle` modulo `period` that is nearest to `reference`.
 double nearest_period(double angle, double reference, double period) {
   return angle + period * std::round((reference - angle) / period);
@@ -41,7 +37,7 @@ double nearest_period(double angle, double reference, double period) {
 struct FaceSurface::View {
   static constexpr int across = 48, buckets = 32;
   Vector3 origin, x, y, normal;
-  Vector2 low, high;                        // bounds of the samples in the plane
+  Eigen::AlignedBox2d box;                  // of the samples in the plane
   Vector2 least_uv, greatest_uv;            // bounds within which the surface may be evaluated
   std::vector<Vector2> uv;                  // parameters of the samples that face the plane
   std::vector<Vector2> xy;                  // coordinates of the same samples in the plane
@@ -50,19 +46,15 @@ struct FaceSurface::View {
   Vector2 at(const Vector3& p) const { return {(p - origin).dot(x), (p - origin).dot(y)}; }
 
   int nearest(const Vector2& p) const {
-    const Vector2 t = (p - low).cwiseQuotient((high - low).cwiseMax(1e-300)) * buckets;
+    const Vector2 t = (p - box.min()).cwiseQuotient(box.sizes().cwiseMax(1e-300)) * buckets;
     return near[cell_at(t.y(), buckets) * buckets + cell_at(t.x(), buckets)];
   }
 
   void fill_buckets() {
-    low = high = xy.front();
-    for (const Vector2& p : xy) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    for (const Vector2& p : xy) box.extend(p);
     for (int i = 0; i < buckets * buckets; ++i) {
       const int column = i % buckets, row = i / buckets;
-      const Vector2 middle = low + (high - low).cwiseProduct(Vector2(column + 0.5, row + 0.5)) / buckets;
+      const Vector2 middle = box.min() + box.sizes().cwiseProduct(Vector2(column + 0.5, row + 0.5)) / buckets;
       int best = 0;
       for (std::size_t k = 1; k < xy.size(); ++k) {
         if ((xy[k] - middle).squaredNorm() < (xy[best] - middle).squaredNorm()) best = static_cast<int>(k);
@@ -158,7 +150,7 @@ SurfacePoint FaceSurface::evaluate_view(const Vector2& xy) const {
   double least = std::numeric_limits<double>::infinity();
   Eigen::Matrix2d seen, best_seen = Eigen::Matrix2d::Identity();
   for (int i = 0; i < max_iterations; ++i) {
-    at = kind_ == Kind::other ? evaluate_other(uv) : evaluate_elementary(uv);
+    at = evaluate_own(uv);
     seen << at.du.dot(view_->x), at.dv.dot(view_->x), at.du.dot(view_->y), at.dv.dot(view_->y);
     const Vector2 off = xy - view_->at(at.point);
     if (!(off.norm() < least)) break;
@@ -184,24 +176,14 @@ double FaceSurface::distance_at_least(const Vector3& point) const {
   if (kind_ == Kind::other) return 0;  // without a frame
   const Vector3 from = point - origin_;
   const double height = from.dot(z_), beside = std::hypot(from.dot(x_), from.dot(y_));
-  switch (kind_) {
-    case Kind::plane:
-      return std::abs(height);
-    case Kind::cylinder:
-      return std::abs(beside - radius_);
-    case Kind::cone: {  // both nappes
-      const double near = (beside - radius_) * cos_angle_ - height * sin_angle_;
-      const double far = (-beside - radius_) * cos_angle_ - height * sin_angle_;
-      return std::min(std::abs(near), std::abs(far));
-    }
-    case Kind::sphere:
-      return std::abs(from.norm() - radius_);
-    case Kind::torus:
-      return std::abs(std::hypot(beside - radius_, height) - minor_radius_);
-    case Kind::other:
-      break;
-  }
-  return 0;
+  if (kind_ == Kind::plane) return std::abs(height);
+  if (kind_ == Kind::cylinder) return std::abs(beside - radius_);
+  if (kind_ == Kind::sphere) return std::abs(from.norm() - radius_);
+  if (kind_ == Kind::torus) return std::abs(std::hypot(beside - radius_, height) - minor_radius_);
+  // Both nappes of a cone.
+  const double near = (beside - radius_) * cos_angle_ - height * sin_angle_;
+  const double far = (-beside - radius_) * cos_angle_ - height * sin_angle_;
+  return std::min(std::abs(near), std::abs(far));
 }
 
 void FaceSurface::recognize() {
@@ -238,9 +220,9 @@ void FaceSurface::recognize() {
       return;
   }
   origin_ = to_vector(frame.Location());
-  x_ = direction(frame.XDirection());
-  y_ = direction(frame.YDirection());
-  z_ = direction(frame.Direction());
+  x_ = to_vector(frame.XDirection());
+  y_ = to_vector(frame.YDirection());
+  z_ = to_vector(frame.Direction());
   // A scaled placement changes the parametrization, so use the formulas only where they agree with
   // OpenCASCADE.
   const double tolerance = 1e-9 * (1 + (to_vector(adaptor_->Value(low_.x(), low_.y())).norm() + radius_));
@@ -251,8 +233,16 @@ void FaceSurface::recognize() {
 }
 
 SurfacePoint FaceSurface::evaluate(const Vector2& uv) const {
-  if (view_) return evaluate_view(uv);
+  return view_ ? evaluate_view(uv) : evaluate_own(uv);
+}
+
+SurfacePoint FaceSurface::evaluate_own(const Vector2& uv) const {
   return kind_ == Kind::other ? evaluate_other(uv) : evaluate_elementary(uv);
+}
+
+double FaceSurface::radius_at(double v) const {
+  if (kind_ == Kind::cone) return radius_ + v * sin_angle_;
+  return kind_ == Kind::torus ? radius_ + minor_radius_ * std::cos(v) : radius_;
 }
 
 SurfacePoint FaceSurface::evaluate_elementary(const Vector2& uv) const {
@@ -261,7 +251,7 @@ SurfacePoint FaceSurface::evaluate_elementary(const Vector2& uv) const {
   const Vector3 radial = cos_u * x_ + sin_u * y_, around = -sin_u * x_ + cos_u * y_;
   if (kind_ == Kind::cylinder) return {origin_ + radius_ * radial + uv.y() * z_, radius_ * around, z_};
   if (kind_ == Kind::cone) {
-    const double r = radius_ + uv.y() * sin_angle_;
+    const double r = radius_at(uv.y());
     return {origin_ + r * radial + uv.y() * cos_angle_ * z_, r * around,
             sin_angle_ * radial + cos_angle_ * z_};
   }
@@ -296,21 +286,13 @@ Vector3 FaceSurface::normal(const SurfacePoint& at, const Vector2& uv) const {
 }
 
 double FaceSurface::max_curvature(const Vector2& uv) const {
-  switch (kind_) {
-    case Kind::plane:
-      return 0;
-    case Kind::cylinder:
-    case Kind::sphere:
-      return 1 / radius_;
-    case Kind::cone:
-      return std::abs(cos_angle_) / std::max(std::abs(radius_ + uv.y() * sin_angle_), 1e-12);
-    case Kind::torus: {
-      const double cos_v = std::cos(uv.y()), r = radius_ + minor_radius_ * cos_v;
-      return std::max(1 / minor_radius_, std::abs(cos_v) / std::max(std::abs(r), 1e-12));
-    }
-    case Kind::other:
-      break;
-  }
+  const auto around = [&](double cosine) {
+    return std::abs(cosine) / std::max(std::abs(radius_at(uv.y())), 1e-12);
+  };
+  if (kind_ == Kind::plane) return 0;
+  if (kind_ == Kind::cylinder || kind_ == Kind::sphere) return 1 / radius_;
+  if (kind_ == Kind::cone) return around(cos_angle_);
+  if (kind_ == Kind::torus) return std::max(1 / minor_radius_, around(std::cos(uv.y())));
   gp_Pnt p;
   gp_Vec du, dv, duu, dvv, duv;
   adaptor_->D2(uv.x(), uv.y(), p, du, dv, duu, dvv, duv);
@@ -353,28 +335,20 @@ Vector2 FaceSurface::inverse(const Vector2& near, const Vector3& target) const {
   const Vector3 d = target - origin_;
   const double x = d.dot(x_), y = d.dot(y_), z = d.dot(z_);
   if (kind_ == Kind::plane) return {x, y};
-  const double r = std::hypot(x, y);
+  double r = std::hypot(x, y);
   double u = r > 1e-12 * (radius_ + std::abs(z)) ? std::atan2(y, x) : near.x();
   const double pi = M_PI;
-  if (kind_ == Kind::cylinder) return {nearest_period(u, near.x(), 2 * pi), z};
-  if (kind_ == Kind::cone) {
-    // Beyond the apex the radius is negative: the same point then has u shifted by half a turn.
-    double signed_r = r;
-    if (radius_ + near.y() * sin_angle_ < 0) {
-      signed_r = -r;
-      u += pi;
-    }
-    return {nearest_period(u, near.x(), 2 * pi), (signed_r - radius_) * sin_angle_ + z * cos_angle_};
-  }
-  if (kind_ == Kind::sphere) return {nearest_period(u, near.x(), 2 * pi), std::atan2(z, r)};
-  // The same holds beyond the axis of a torus that meets its axis.
-  double signed_r = r;
-  if (radius_ + minor_radius_ * std::cos(near.y()) < 0) {
-    signed_r = -r;
+  // Beyond the apex of a cone, and beyond the axis of a torus that meets its axis, the radius is negative:
+  // the same point then has u shifted by half a turn.
+  if (radius_at(near.y()) < 0) {
+    r = -r;
     u += pi;
   }
-  return {nearest_period(u, near.x(), 2 * pi),
-          nearest_period(std::atan2(z, signed_r - radius_), near.y(), 2 * pi)};
+  u = nearest_period(u, near.x(), 2 * pi);
+  if (kind_ == Kind::cylinder) return {u, z};
+  if (kind_ == Kind::cone) return {u, (r - radius_) * sin_angle_ + z * cos_angle_};
+  if (kind_ == Kind::sphere) return {u, std::atan2(z, r)};
+  return {u, nearest_period(std::atan2(z, r - radius_), near.y(), 2 * pi)};
 }
 
 SurfacePoint FaceSurface::move(Vector2& uv, const Vector3& target) const {

@@ -89,9 +89,12 @@ class FaceSurface : public MeshSurface {
   struct View;
 
   void recognize();
+  SurfacePoint evaluate_own(const Vector2& uv) const;
   SurfacePoint evaluate_elementary(const Vector2& uv) const;
   SurfacePoint evaluate_other(const Vector2& uv) const;
   SurfacePoint evaluate_view(const Vector2& xy) const;
+  /// Of a cone or torus, around its axis at v; negative beyond the apex or the axis.
+  double radius_at(double v) const;
   Vector2 inverse(const Vector2& near, const Vector3& target) const;
   Vector2 clamp(Vector2 uv) const;
   /// One step of Newton's method.
