@@ -3,23 +3,19 @@
 #include "geometry/surfaces/contacts.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
-#include <Bnd_Box.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/cad/sewing.hpp"
+#include "geometry/cad/shape_parts.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
@@ -43,17 +39,11 @@ std::vector<std::vector<FaceId>> parts_of(const CadShape& shape) {
   for (const FaceId face : shape.faces.ids())  // where others touch it in a point
     for (const InnerVertex& inner : shape.faces[face].inner_vertices)
       unions.union_set(face.index(), count + inner.vertex.index());
-  if (shape.solids > 0) {
-    TopTools_IndexedMapOfShape faces;
-    TopExp::MapShapes(shape.shape, TopAbs_FACE, faces);
-    for (TopExp_Explorer solid(shape.shape, TopAbs_SOLID); solid.More(); solid.Next()) {
-      int first = -1;
-      for (TopExp_Explorer face(solid.Current(), TopAbs_FACE); face.More(); face.Next()) {
-        const int index = faces.FindIndex(face.Current()) - 1;
-        if (first >= 0) unions.union_set(first, index);
-        first = index;
-      }
-    }
+  const TopTools_IndexedMapOfShape faces = map_of(shape.shape, TopAbs_FACE);
+  for (TopExp_Explorer solid(shape.shape, TopAbs_SOLID); solid.More(); solid.Next()) {
+    const std::vector<TopoDS_Shape> own = list_of(solid.Current(), TopAbs_FACE);
+    for (const TopoDS_Shape& face : own)
+      unions.union_set(faces.FindIndex(own.front()) - 1, faces.FindIndex(face) - 1);
   }
   std::map<std::size_t, std::size_t> part_of;  // by representative
   std::vector<std::vector<FaceId>> parts;
@@ -80,7 +70,7 @@ class Search {
       Bnd_Box all;
       for (const FaceId face : parts_[part]) {
         part_of_[face] = static_cast<int>(part);
-        boxes_[face] = box_of(shape.faces[face].face);
+        boxes_[face] = wider_box_of(shape.faces[face].face);
         all.Add(boxes_[face]);
       }
       part_boxes_.push_back(all);
@@ -88,7 +78,7 @@ class Search {
     for (const EdgeId id : shape.edges.ids()) {
       const CadEdge& edge = shape.edges[id];
       if (edge.degenerate || edge.faces.empty() || !(edge.length > 0)) continue;
-      edge_boxes_[id] = box_of(edge.edge);
+      edge_boxes_[id] = wider_box_of(edge.edge);
       for (const FaceId face : edge.faces)
         if (edges_of_[face].empty() || edges_of_[face].back() != id) edges_of_[face].push_back(id);
     }
@@ -108,9 +98,8 @@ class Search {
   }
 
  private:
-  Bnd_Box box_of(const TopoDS_Shape& shape) const {
-    Bnd_Box box;
-    BRepBndLib::Add(shape, box, Standard_False);
+  Bnd_Box wider_box_of(const TopoDS_Shape& part) const {
+    Bnd_Box box = box_of(part);
     box.Enlarge(tolerance_);
     return box;
   }

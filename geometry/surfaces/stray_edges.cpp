@@ -2,26 +2,17 @@
 
 #include "geometry/surfaces/stray_edges.hpp"
 
-#include <BRepBndLib.hxx>
-#include <Bnd_Box.hxx>
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/bounding_box.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 
 namespace quadrille {
 
 namespace {
-
-/// The box of all surfaces; void if there are none. Edge curves enlarge it only where they bound planes.
-Bnd_Box box_of_surfaces(const CadShape& shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape.shape, box, Standard_False);
-  return box;
-}
 
 double diagonal_of_vertices(const CadShape& shape) {
   if (shape.vertices.empty()) return 0;
@@ -61,7 +52,7 @@ std::vector<StrayEdge> stray_edges(const CadShape& shape, const FaceFlags& used)
   }
   std::vector<StrayEdge> result;
   if (long_ones.empty()) return result;
-  const Bnd_Box box = box_of_surfaces(shape);
+  const Bnd_Box box = box_of(shape.shape);  // edge curves enlarge it only where they bound planes
   if (box.IsVoid()) return result;
   const Vector3 low = to_vector(box.CornerMin()), high = to_vector(box.CornerMax());
   const double span = (high - low).norm();

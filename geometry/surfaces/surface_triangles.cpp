@@ -4,15 +4,10 @@
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 
-#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -201,12 +196,11 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
                                      const FaceFlags& used, const ExecutionContext& context) {
   SurfaceTriangles surface;
   context.check();
-  TopoDS_Compound faces;
-  BRep_Builder builder;
-  builder.MakeCompound(faces);
+  std::vector<TopoDS_Shape> parts;
   for (const FaceId id : shape.faces.ids()) {
-    if (used[id]) builder.Add(faces, shape.faces[id].face);
+    if (used[id]) parts.push_back(shape.faces[id].face);
   }
+  const TopoDS_Compound faces = compound_of(parts);
   // A copy is triangulated, so that the model itself stays without triangles.
   BRepBuilderAPI_Copy copy(faces, Standard_False);
   try {
