@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -47,6 +46,11 @@ double SizeSources::cap_of(const CadEdge& edge, bool by_shape) const {
   if (!options_.short_edges || !by_shape) return cap;
   // A short edge is one element, and the mesh around it is refined towards it.
   return std::min(cap, std::max(edge.length, limits_.size_min));
+}
+
+SizeSources::SizeHere SizeSources::with_spatial(double size, const Vector3& point) const {
+  if (spatial_.empty()) return {size, size};
+  return {std::min(size, spatial_.at(point)), std::min(size, spatial_.hint(point))};
 }
 
 void SizeSources::hold_segments() const {
@@ -115,11 +119,10 @@ void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, doubl
     const Vector3 point = curve.point(t);
     double size = cap;
     if (with_curvature) size = std::min(size, size_of(curve.curvature(t)));
-    if (spatial_.empty()) return EdgeSample{t, point, size, size};
-    return EdgeSample{t, point, std::min(size, spatial_.at(point)), std::min(size, spatial_.hint(point))};
+    return EdgeSample{t, point, with_spatial(size, point)};
   };
-  const auto add = [&](const EdgeSample& at) {
-    if (at.size < limits_.largest) sink(at.point, at.size);
+  const auto add = [&](const EdgeSample& made) {
+    if (made.at.size < limits_.largest) sink(made.point, made.at.size);
   };
   EdgeSample first = sample(edge.first);
   add(first);
@@ -127,7 +130,7 @@ void SizeSources::sample_edge(const EdgeCurve& curve, const CadEdge& edge, doubl
   for (int i = 1; i <= intervals; ++i) {
     check();
     const EdgeSample last = sample(edge.first + (edge.last - edge.first) * i / intervals);
-    const double segments = (last.point - first.point).norm() / std::min(first.size, last.size);
+    const double segments = (last.point - first.point).norm() / std::min(first.at.size, last.at.size);
     if (segments > options_.budget.segments) throw too_many_segments(edge, segments);
     split_interval(sample, first, last, 0, add, check);
     add(last);
@@ -140,29 +143,48 @@ template <class SampleAt, class Add>
 void SizeSources::split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last,
                                  int depth, const Add& add, SparseCheck& check) const {
   check();
-  if ((last.point - first.point).norm() <= std::min(first.hint, last.hint) || depth > max_depth) return;
+  const double hint = std::min(first.at.hint, last.at.hint);
+  if ((last.point - first.point).norm() <= hint || depth > max_depth) return;
   const EdgeSample middle = sample(0.5 * (first.t + last.t));
-  if (std::min({first.hint, middle.hint, last.hint}) >= limits_.largest) return;
+  if (std::min(hint, middle.at.hint) >= limits_.largest) return;
   add(middle);
   split_interval(sample, first, middle, depth + 1, add, check);
   split_interval(sample, middle, last, depth + 1, add, check);
 }
 
+/// Samples the face in cells of its parameter plane, at first about as long as the spacing of spatial sizes.
 void SizeSources::face(FaceId id, const Sink& sink) const {
   if (is_set(unsized_.faces, id) && !options_.face_sizes.contains(id.number())) return;
   const bool gridded = is_set(unsized_.gridded, id);
   if (options_.proximity > 0 || (options_.short_edges && !gridded)) gaps(id, sink);
-  const FaceSurface surface(shape_.faces[id]);
+  const CadFace& face = shape_.faces[id];
+  const FaceSurface surface(face);
   const double cap = value_or(options_.face_sizes, id.number(), limits_.largest);
   const bool curved = !surface.planar() && has_curvature_sizes(options_);
   if (!curved && cap >= limits_.largest && spatial_.empty()) return;
-  const auto size_at = [&](const SurfacePoint& at, const Vector2& uv) {
-    double size = cap;
-    if (curved) size = std::min(size, (gridded ? options_.aspect : 1) * size_of(surface.max_curvature(uv)));
-    if (spatial_.empty()) return FaceSize{size, size};
-    return FaceSize{std::min(size, spatial_.at(at.point)), std::min(size, spatial_.hint(at.point))};
+  const TrimmedDomain domain = coarse_domain(shape_, face);
+  SparseCheck check(context_, 64);
+  const auto sample = [&](const Vector2& middle, const Vector2& cell) {
+    check();
+    const SurfacePoint at = surface.evaluate(middle);
+    double own = cap;
+    if (curved) own = std::min(own, (gridded ? options_.aspect : 1) * size_of(surface.max_curvature(middle)));
+    const auto [size, hint] = with_spatial(own, at.point);
+    if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
+    return std::tuple(hint, cell.x() * at.du.norm(), cell.y() * at.dv.norm());
   };
-  sample_face(id, surface, spatial_.spacing(), size_at, sink);
+  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
+  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spatial_.spacing();
+  const auto cells = [](double count) {
+    return to_int(std::clamp<double>(std::ceil(count), fewest_cells, most_cells));
+  };
+  const int nu = cells(lengths.x()), nv = cells(lengths.y());
+  const Vector2 cell(extent.x() / nu, extent.y() / nv);
+  for (int k = 0; k < nu * nv; ++k) {
+    const int column = k % nu, row = k / nu;
+    const Vector2 middle((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
+    split_cell(sample, low + middle, cell, 0);
+  }
 }
 
 /// Requests options.proximity elements across each gap and, with options.short_edges, elements along it that
@@ -174,8 +196,7 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
   const double asked =
       options_.proximity > rows ? rows * std::ceil(options_.proximity / rows) : options_.proximity;
   const double n = std::max(asked, rows / longest);
-  const FaceGaps gaps(shape_, id, n * limits_.largest, n * limits_.size_min);
-  for (const FaceGap& gap : gaps.find(context_)) {
+  for (const FaceGap& gap : face_gaps(shape_, id, n * limits_.largest, n * limits_.size_min, context_)) {
     double size = limits_.largest;
     if (asked > 0) size = std::max(gap.width() / asked, limits_.at_gaps);
     if (options_.short_edges && gap.angle < parallel && gap.width() >= least_width * limits_.size_min)
@@ -183,34 +204,6 @@ void SizeSources::gaps(FaceId id, const Sink& sink) const {
     if (!(size < limits_.largest)) continue;
     const int steps = to_int(std::ceil(gap.width() / size));
     for (int k = 0; k <= steps; ++k) sink(gap.from + k * (gap.to - gap.from) / steps, size);
-  }
-}
-
-/// Samples a face in cells of its parameter plane, at first about as long as `spacing`.
-template <class SizeAt>
-void SizeSources::sample_face(FaceId id, const FaceSurface& surface, double spacing, const SizeAt& size_at,
-                              const Sink& sink) const {
-  const CadFace& face = shape_.faces[id];
-  const TrimmedDomain domain = coarse_domain(shape_, face);
-  SparseCheck check(context_, 64);
-  const auto sample = [&](const Vector2& middle, const Vector2& cell) {
-    check();
-    const SurfacePoint at = surface.evaluate(middle);
-    const auto [size, hint] = size_at(at, middle);
-    if (size < limits_.largest && domain.inside(middle)) sink(at.point, size);
-    return std::tuple(hint, cell.x() * at.du.norm(), cell.y() * at.dv.norm());
-  };
-  const Vector2 low(face.u_min, face.v_min), extent(face.u_max - face.u_min, face.v_max - face.v_min);
-  const Vector2 lengths = extent.cwiseProduct(surface.mean_scale()) / spacing;
-  const auto cells = [](double count) {
-    return to_int(std::clamp<double>(std::ceil(count), fewest_cells, most_cells));
-  };
-  const int nu = cells(lengths.x()), nv = cells(lengths.y());
-  const Vector2 cell(extent.x() / nu, extent.y() / nv);
-  for (int k = 0; k < nu * nv; ++k) {
-    const int column = k % nu, row = k / nu;
-    const Vector2 middle((column + 0.5) * cell.x(), (row + 0.5) * cell.y());
-    split_cell(sample, low + middle, cell, 0);
   }
 }
 

@@ -2,7 +2,6 @@
 /// The sizes that a model's edges and faces request, as points. Internal.
 
 #include <functional>
-#include <vector>
 
 #include "geometry/base/execution_context.hpp"
 #include "geometry/cad/cad_shape.hpp"
@@ -32,19 +31,20 @@ class SizeSources {
   void face(FaceId id, const Sink& sink) const;
 
  private:
+  /// The size at a place, and a lower estimate of the sizes around it.
+  struct SizeHere {
+    double size, hint;
+  };
   struct EdgeSample {
     double t;
     Vector3 point;
-    double size, hint;
-  };
-  /// The size at a place of a face, and a lower estimate of the sizes around it.
-  struct FaceSize {
-    double size, hint;
+    SizeHere at;
   };
 
   void gaps(FaceId id, const Sink& sink) const;
   double size_of(double curvature) const { return size_of_curvature(options_, limits_, curvature); }
   double cap_of(const CadEdge& edge, bool by_shape) const;
+  SizeHere with_spatial(double size, const Vector3& point) const;
   Error too_many_segments(const CadEdge& edge, double segments) const;
   void prescribed_edge(const CadEdge& edge, const PrescribedEdge& prescribed, const Sink& sink) const;
   void sample_edge(const EdgeCurve& curve, const CadEdge& edge, double cap, bool with_curvature,
@@ -52,9 +52,6 @@ class SizeSources {
   template <class SampleAt, class Add>
   void split_interval(const SampleAt& sample, const EdgeSample& first, const EdgeSample& last, int depth,
                       const Add& add, SparseCheck& check) const;
-  template <class SizeAt>
-  void sample_face(FaceId id, const FaceSurface& surface, double spacing, const SizeAt& size_at,
-                   const Sink& sink) const;
   template <class SampleAt>
   void split_cell(const SampleAt& sample, const Vector2& middle, const Vector2& cell, int depth) const;
 

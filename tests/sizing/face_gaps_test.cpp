@@ -25,7 +25,7 @@ TEST(FaceGaps, FindsHolesByTheirRims) {
   int found = 0;
   for (const FaceId face : model.shape().faces.ids()) {
     if (!FaceSurface(model.shape().faces[face]).planar()) continue;
-    for (const FaceGap& gap : FaceGaps(model.shape(), face, 12, 0.1).find(context)) {
+    for (const FaceGap& gap : face_gaps(model.shape(), face, 12, 0.1, context)) {
       ++found;
       EXPECT_LE(gap.width(), 12);
       // Across the face, not through the hole: the middle lies in the plane and in the domain.
@@ -40,8 +40,8 @@ TEST(FaceGaps, CornersOfABoxAreNone) {
   const CadModel model = CadModel::read(sample_model("box").path());
   ExecutionContext context;
   for (const FaceId face : model.shape().faces.ids())
-    EXPECT_TRUE(FaceGaps(model.shape(), face, 9, 0.1).find(context).empty());
-  EXPECT_FALSE(FaceGaps(model.shape(), face_id(1), 30, 0.1).find(context).empty());
+    EXPECT_TRUE(face_gaps(model.shape(), face, 9, 0.1, context).empty());
+  EXPECT_FALSE(face_gaps(model.shape(), face_id(1), 30, 0.1, context).empty());
 }
 
 /// A wedge narrows to nothing: no gap there is too narrow to look for the next one.
@@ -51,7 +51,7 @@ TEST(FaceGaps, EndWhereAWedgeDoes) {
   BRepTools::Write(BRepBuilderAPI_MakeFace(gp_Pln(gp::XOY()), wire.Wire()).Face(), text);
   const CadModel model = CadModel::from_brep(text.str(), "wedge");
   ExecutionContext context;
-  const auto gaps = FaceGaps(model.shape(), face_id(1), 5, 1e-15).find(context);
+  const auto gaps = face_gaps(model.shape(), face_id(1), 5, 1e-15, context);
   EXPECT_GT(gaps.size(), 10U);
   EXPECT_LT(gaps.size(), 10000U);
 }

@@ -162,7 +162,7 @@ TEST(SizeSources, SoManyElementsAreAcrossAGap) {
   int gaps = 0;
   for (const FaceId face : model.shape().faces.ids()) {
     SizingField::Sampler size_at(field, face);
-    for (const FaceGap& gap : FaceGaps(model.shape(), face, 24, 0.8).find(context)) {
+    for (const FaceGap& gap : face_gaps(model.shape(), face, 24, 0.8, context)) {
       ++gaps;
       for (const double share : {0.0, 0.3, 0.5, 0.9})
         EXPECT_LE(size_at(gap.from + share * (gap.to - gap.from)), 1.3 * std::max(0.2, gap.width() / 4));
