@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <utility>
 
 #include "geometry/base/whole_number.hpp"
 #include "geometry/sizing/sizing_field.hpp"
@@ -29,14 +30,6 @@ struct Item {
     return value != other.value ? value > other.value : other.coord < coord;
   }
 };
-
-Coord floor_of(const Vector3& index) {
-  return Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
-}
-
-Coord corner_of(const Coord& base, int k) {
-  return base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
-}
 
 /// The position within its voxel, coordinates 0 to 1.
 Vector3 place_in(const Vector3& index, const Coord& base) {
@@ -69,13 +62,10 @@ int CascadeFrame::level_of(double size) const {
 }
 
 SizeTree& SizeCascade::make_tree(int level) {
-  if (levels() <= level) {
-    trees_.resize(level + 1);
-    fresh_.resize(level + 1);
-    changed_.resize(level + 1);
-  }
-  if (!trees_[level]) trees_[level] = std::make_unique<SizeTree>(static_cast<float>(frame_.size_max));
-  return *trees_[level];
+  if (levels() <= level) levels_.resize(level + 1);
+  std::unique_ptr<SizeTree>& tree = levels_[level].tree;
+  if (!tree) tree = std::make_unique<SizeTree>(static_cast<float>(frame_.size_max));
+  return *tree;
 }
 
 void SizeCascade::lower(int level, const Coord& c, float value, BlockCount& blocks) {
@@ -85,20 +75,18 @@ void SizeCascade::lower(int level, const Coord& c, float value, BlockCount& bloc
   }
   if (!(value < accessor_->value(c))) return;
   accessor_->set(c, value);
-  fresh_[level].push_back(c);
+  levels_[level].fresh.push_back(c);
 }
 
 void SizeCascade::add(const Vector3& point, double size, BlockCount& blocks) {
-  const int level = frame_.level_of(size);
-  const Coord base = floor_of(point / frame_.voxel(level));
-  for (int k = 0; k < 8; ++k) lower(level, corner_of(base, k), static_cast<float>(size), blocks);
+  add_by_corner(point, size, blocks, [size](const Vector3&) { return size; });
 }
 
 void SizeCascade::add_by_corner(const Vector3& point, double size, BlockCount& blocks,
                                 const std::function<double(const Vector3& corner)>& size_at) {
   const int level = frame_.level_of(size);
   const double voxel = frame_.voxel(level);
-  const Coord base = floor_of(point / voxel);
+  const Coord base = voxel_at(point / voxel);
   for (int k = 0; k < 8; ++k) {
     const Coord c = corner_of(base, k);
     lower(level, c, static_cast<float>(size_at(voxel * Vector3(c.x(), c.y(), c.z()))), blocks);
@@ -118,7 +106,7 @@ void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& bl
     for (int level = std::max(own - 1, 0); level <= std::min(own + 1, frame_.finest); ++level) {
       if (at.size > coverage * frame_.size(level)) continue;
       const Vector3 index = at.point / frame_.voxel(level);
-      const Coord base = floor_of(index);
+      const Coord base = voxel_at(index);
       const Vector3 within = place_in(index, base);
       for (int k = 0; k < 8; ++k) {
         const double weight = corner_weight(within, k);
@@ -142,7 +130,7 @@ void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& bl
 }
 
 bool SizeCascade::is_fresh() const {
-  return std::any_of(fresh_.begin(), fresh_.end(), [](const auto& coords) { return !coords.empty(); });
+  return std::any_of(levels_.begin(), levels_.end(), [](const Level& level) { return !level.fresh.empty(); });
 }
 
 void SizeCascade::grade(double slope, const Near& near, BlockCount& blocks, const ExecutionContext& context) {
@@ -153,30 +141,30 @@ void SizeCascade::grade(double slope, const Near& near, BlockCount& blocks, cons
   }
   last_level_ = -1;
   accessor_.reset();
-  changed_.assign(changed_.size(), {});
+  for (Level& level : levels_) level.changed = {};
 }
 
 void SizeCascade::take_over(int level, BlockCount& blocks) {
-  if (changed_[level + 1].empty()) return;
-  VoxelAccessor finer(*trees_[level + 1]), here(make_tree(level), &blocks, stamp_);
-  for (const Coord& c : changed_[level + 1]) {
+  const Level& next = levels_[level + 1];
+  if (next.changed.empty()) return;
+  VoxelAccessor finer(*next.tree), here(make_tree(level), &blocks, stamp_);
+  for (const Coord& c : next.changed) {
     if ((c.x() | c.y() | c.z()) & 1) continue;
     const Coord half(c.x() >> 1, c.y() >> 1, c.z() >> 1);
     const float value = finer.value(c);
     if (!(value < here.value(half))) continue;
     here.set(half, value);
-    fresh_[level].push_back(half);
+    levels_[level].fresh.push_back(half);
   }
 }
 
 void SizeCascade::grade_level(int level, double slope, const Near& near, BlockCount& blocks,
                               const ExecutionContext& context) {
-  std::vector<Coord>& changed = changed_[level];
-  changed = std::move(fresh_[level]);
-  fresh_[level].clear();
+  std::vector<Coord>& changed = levels_[level].changed;
+  changed = std::exchange(levels_[level].fresh, {});
   if (changed.empty()) return;
   SparseCheck check(context);
-  VoxelAccessor accessor(*trees_[level], &blocks, stamp_);
+  VoxelAccessor accessor(*levels_[level].tree, &blocks, stamp_);
   std::vector<Item> items;
   items.reserve(changed.size());
   for (const Coord& c : changed) items.push_back({accessor.value(c), c});
@@ -218,7 +206,7 @@ SizeCascade::Lookup::Lookup(const SizeCascade& cascade) : size_max_(cascade.fram
 double SizeCascade::Lookup::operator()(const Vector3& point) {
   for (auto& [scale, limit, coarsest, accessor] : levels_) {
     const Vector3 index = point * scale;
-    const Coord base = floor_of(index);
+    const Coord base = voxel_at(index);
     const Vector3 within = place_in(index, base);
     double value = 0;
     int active = 0;

@@ -25,6 +25,16 @@ using SizeLeaf = openvdb::tree::LeafNode<float, 3>;
 /// A tree with nodes small enough for each face to have its own.
 using SizeTree = openvdb::tree::RootNode<openvdb::tree::InternalNode<SizeLeaf, 2>>;
 
+/// The voxel that contains a point. \param index the point in voxel widths.
+inline Coord voxel_at(const Vector3& index) {
+  return Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z()));
+}
+
+/// The k-th corner of a voxel, see corner_weight().
+inline Coord corner_of(const Coord& base, int k) {
+  return base.offsetBy(k & 1, k >> 1 & 1, k >> 2);
+}
+
 constexpr int max_size_levels = 32;
 
 /// The ratio of the voxel width to the size of the level.
@@ -112,9 +122,9 @@ class SizeCascade {
   explicit SizeCascade(const CascadeFrame& frame) : frame_(frame) {}
 
   const CascadeFrame& frame() const { return frame_; }
-  int levels() const { return static_cast<int>(trees_.size()); }
+  int levels() const { return static_cast<int>(levels_.size()); }
   /// Null if the level has no sizes.
-  SizeTree* tree(int level) const { return trees_[level].get(); }
+  SizeTree* tree(int level) const { return levels_[level].tree.get(); }
 
   /// Limits the size at a point. All corners of the voxel around it are limited, so that a look-up at the
   /// point returns the size unchanged.
@@ -145,9 +155,9 @@ class SizeCascade {
   void for_each(Visit&& visit) const {
     std::vector<SizeLeaf*> leaves;
     for (int level = 0; level < levels(); ++level) {
-      if (!trees_[level]) continue;
+      if (tree(level) == nullptr) continue;
       leaves.clear();
-      trees_[level]->getNodes(leaves);
+      tree(level)->getNodes(leaves);
       for (const SizeLeaf* leaf : leaves) {
         for (auto it = leaf->cbeginValueOn(); it; ++it) visit(level, it.getCoord(), *it);
       }
@@ -175,6 +185,12 @@ class SizeCascade {
   };
 
  private:
+  struct Level {
+    std::unique_ptr<SizeTree> tree;
+    std::vector<Coord> fresh;    // voxels lowered since the last grading
+    std::vector<Coord> changed;  // voxels lowered before or by the current grading
+  };
+
   SizeTree& make_tree(int level);
   void grade_level(int level, double slope, const Near& near, BlockCount& blocks,
                    const ExecutionContext& context);
@@ -182,9 +198,7 @@ class SizeCascade {
   void take_over(int level, BlockCount& blocks);
 
   CascadeFrame frame_;
-  std::vector<std::unique_ptr<SizeTree>> trees_;
-  std::vector<std::vector<Coord>> fresh_;    // (levels) voxels lowered since the last grading
-  std::vector<std::vector<Coord>> changed_;  // (levels) voxels lowered before or by the current grading
+  std::vector<Level> levels_;
   std::unique_ptr<VoxelAccessor> accessor_;  // for the level lowered last
   int last_level_ = -1;
   std::uint32_t stamp_ = 0;  // number of gradings

@@ -93,11 +93,13 @@ class Builder {
       for (const int i : field_.cascades_of(faces_of_vertex(id)))
         field_.cascades[i]->add(shape_.vertices[id], size, blocks_);
     }
-    add_points();
     if (field_.on_surface)
-      grade_on_surface(shape_, field_.cascades, options_.growth, blocks_, context_);
-    else
-      field_.cascades.front()->grade(options_.growth, {}, blocks_, context_);
+      return grade_on_surface(shape_, field_.cascades, options_.growth, blocks_, context_);
+    // Points may lie anywhere in space. What they request on faces was sampled on the faces.
+    SizeCascade& all = *field_.cascades.front();
+    for (const auto& [p, size] : spatial_.points())
+      if (size < limits_.largest) all.add(p, size, blocks_);
+    all.grade(options_.growth, {}, blocks_, context_);
   }
 
  private:
@@ -127,7 +129,6 @@ class Builder {
   };
 
   void add(SizeCascade& cascade, const SizePoint& at) {
-    if (!spatial_.has_corners()) return cascade.add(at.point, at.size, blocks_);
     cascade.add_by_corner(at.point, at.size, blocks_,
                           [&](const Vector3& corner) { return spatial_.at_corner(at, corner); });
   }
@@ -155,13 +156,6 @@ class Builder {
       }
     }
     return faces;
-  }
-
-  /// Adds points anywhere in space. What they request on faces is sampled on the faces.
-  void add_points() {
-    if (field_.on_surface) return;
-    for (const auto& [p, size] : spatial_.points())
-      if (size < limits_.largest) field_.cascades.front()->add(p, size, blocks_);
   }
 
   const CadShape& shape_;

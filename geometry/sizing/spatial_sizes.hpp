@@ -31,8 +31,6 @@ class SpatialSizes {
   /// our own files, it is the file's size at the corner, so that sizes come out of the field as they are in
   /// the file. Otherwise it is the size at the point.
   double at_corner(const SizePoint& point, const Vector3& corner) const;
-  /// Whether at_corner() may differ from the size at the point.
-  bool has_corners() const { return between_voxels_; }
   /// A lower estimate of the sizes near a point: sampling whose steps are halved down to it misses nothing.
   double hint(const Vector3& point) const;
   /// The largest initial step of a sampling.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -52,31 +53,23 @@ class VoxelFinder {
     }
   }
 
-  struct Place {
-    int level = -1;  // -1 = nowhere
-    Coord base;
-    bool changed = false;  // a corner was changed by the last grading
-  };
-
-  /// The voxel around a point on the finest level on which it has an active corner.
-  Place find(const Vector3& p) {
+  /// The voxel around a point on the finest level on which it has an active corner, and the level. Nothing
+  /// if the last grading has changed no corner of it.
+  std::optional<std::pair<int, Coord>> find_changed(const Vector3& p) {
     for (int level = cascade_.levels() - 1; level >= 0; --level) {
       if (!accessors_[level]) continue;
-      const Vector3 index = p / cascade_.frame().voxel(level);
-      Place place{level, Coord::floor(openvdb::Vec3d(index.x(), index.y(), index.z())), false};
-      bool active = false;
+      const Coord base = voxel_at(p / cascade_.frame().voxel(level));
+      bool active = false, changed = false;
       for (int k = 0; k < 8; ++k) {
-        const Coord c = corner(place.base, k);
+        const Coord c = corner_of(base, k);
         float value = 0;
         active |= accessors_[level]->probe(c, value);
-        place.changed |= accessors_[level]->stamp(c) >= cascade_.stamp();
+        changed |= accessors_[level]->stamp(c) >= cascade_.stamp();
       }
-      if (active) return place;
+      if (active) return changed ? std::optional(std::pair(level, base)) : std::nullopt;
     }
     return {};
   }
-
-  static Coord corner(const Coord& base, int k) { return base.offsetBy(k & 1, k >> 1 & 1, k >> 2); }
 
   /// \return whether the voxel is active.
   bool probe(int level, const Coord& c, float& value) {
@@ -115,6 +108,7 @@ class SurfaceGradation {
   struct Sample {
     double t;
     Vector3 point;
+    double size = 0;  // on the face whose sizes are passed
   };
   /// A voxel that gets a smaller size from across an edge.
   struct Lowered {
@@ -130,9 +124,7 @@ class SurfaceGradation {
       graded_[face] = cascade_of(face).is_fresh();
       if (!graded_[face]) return;
       if (!bands_[face]) bands_[face] = std::make_unique<FaceBand>(shape_.faces[face]);
-      const FaceBand& near = *bands_[face];
-      const auto is_near = [&near](const Vector3& p, double voxel) { return near(p, voxel); };
-      cascade_of(face).grade(slope_, is_near, blocks_, context_);
+      cascade_of(face).grade(slope_, std::cref(*bands_[face]), blocks_, context_);
     });
     return std::any_of(graded_.begin(), graded_.end(), [](char graded) { return graded != 0; });
   }
@@ -168,7 +160,7 @@ class SurfaceGradation {
       for (int i = 0; i <= n; ++i)
         samples.push_back(sample(curve, edge.first + (edge.last - edge.first) * i / n));
     }
-    Passing passing{id, from, SizeCascade::Lookup(cascade), VoxelFinder(cascade), {}, {}};
+    Passing passing{id, SizeCascade::Lookup(cascade), VoxelFinder(cascade), {}, {}};
     for (const FaceId face : faces) {
       if (face != from) passing.targets.emplace_back(face, VoxelFinder(cascade_of(face)));
     }
@@ -180,9 +172,10 @@ class SurfaceGradation {
       check();
       const bool changed_before = changed;
       changed = pass_voxel(passing, samples[i].point);
-      if (changed || changed_before)
-        split(curve, passing, {samples[i - 1], passing.size_at(samples[i - 1].point)},
-              {samples[i], passing.size_at(samples[i].point)}, 0);
+      if (changed || changed_before) {
+        for (Sample* end : {&samples[i - 1], &samples[i]}) end->size = passing.size_at(end->point);
+        split(curve, passing, samples[i - 1], samples[i], 0);
+      }
       closer.push_back(samples[i]);
     }
     samples = std::move(closer);
@@ -191,46 +184,41 @@ class SurfaceGradation {
   /// The state of passing one face's sizes to others across an edge.
   struct Passing {
     EdgeId edge;
-    FaceId from;
     SizeCascade::Lookup size_at;
     VoxelFinder finder;
     std::vector<std::pair<FaceId, VoxelFinder>> targets;
     std::vector<Sample> samples;  // samples along the edge
   };
-  struct SizedSample {
-    Sample at;
-    double size;
-  };
 
   static Sample sample(const EdgeCurve& curve, double t) { return {t, curve.point(t)}; }
 
   /// Passes sizes at samples between two others, by halving until they are about a voxel apart.
-  void split(const EdgeCurve& curve, Passing& passing, const SizedSample& a, const SizedSample& b,
-             int depth) {
+  void split(const EdgeCurve& curve, Passing& passing, const Sample& a, const Sample& b, int depth) {
     constexpr int max_halvings = 40;
     constexpr double share = 0.7;  // share of the size, which is at most a voxel width
-    if (depth > max_halvings || (a.at.point - b.at.point).norm() <= share * std::min(a.size, b.size)) return;
-    SizedSample middle{sample(curve, 0.5 * (a.at.t + b.at.t)), 0};
-    middle.size = passing.size_at(middle.at.point);
+    if (depth > max_halvings || (a.point - b.point).norm() <= share * std::min(a.size, b.size)) return;
+    Sample middle = sample(curve, 0.5 * (a.t + b.t));
+    middle.size = passing.size_at(middle.point);
     if (std::min({a.size, b.size, middle.size}) >= cascades_.front()->frame().size_max) return;
     split(curve, passing, a, middle, depth + 1);
-    pass_voxel(passing, middle.at.point);
-    passing.samples.push_back(middle.at);
+    pass_voxel(passing, middle.point);
+    passing.samples.push_back(middle);
     split(curve, passing, middle, b, depth + 1);
   }
 
   /// Records the corners of the voxel around a point that are smaller on one face than on others. \return
   /// whether the last grading changed the voxel.
   bool pass_voxel(Passing& passing, const Vector3& point) {
-    const VoxelFinder::Place place = passing.finder.find(point);
-    if (place.level < 0 || !place.changed) return false;
+    const auto changed = passing.finder.find_changed(point);
+    if (!changed) return false;
+    const auto& [level, base] = *changed;
     for (int k = 0; k < 8; ++k) {
-      const Coord c = VoxelFinder::corner(place.base, k);
+      const Coord c = corner_of(base, k);
       float value = 0, own = 0;
-      if (!passing.finder.probe(place.level, c, value)) continue;
+      if (!passing.finder.probe(level, c, value)) continue;
       for (auto& [face, finder] : passing.targets) {
-        if (!finder.probe(place.level, c, own) || value < own)
-          lowered_[passing.edge].push_back({face, place.level, c, value});
+        if (!finder.probe(level, c, own) || value < own)
+          lowered_[passing.edge].push_back({face, level, c, value});
       }
     }
     return true;
