@@ -41,16 +41,12 @@ struct ExternalField {
   /// The interpolated size, as in SizeCascade::Lookup.
   double between(const Vector3& p) const {
     for (const auto& [grid, unit, limit] : grids) {
-      Coord base;
-      Vector3 within;
-      if (!enter(*grid, p, base, within)) continue;
       double size = 0;
       int active = 0;
-      for (int k = 0; k < 8; ++k) {
-        float value = 0;
-        active += grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value);
-        size += corner_weight(within, k) * value;
-      }
+      visit_corners(*grid, p, [&](double weight, float value, bool is_active) {
+        active += is_active ? 1 : 0;
+        size += weight * value;
+      });
       const bool coarsest = &grid == &grids.back().grid;
       if (active > 0 && (coarsest || (active == 8 && size <= limit))) return unit * size;
     }
@@ -61,29 +57,29 @@ struct ExternalField {
   double least(const Vector3& p) const {
     double result = std::numeric_limits<double>::infinity();
     for (const auto& [grid, unit, limit] : grids) {
-      Coord base;
-      Vector3 within;
-      if (!enter(*grid, p, base, within)) continue;
-      for (int k = 0; k < 8; ++k) {
-        float value = 0;
-        if (grid->tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value))
-          result = std::min(result, unit * value);
-      }
+      visit_corners(*grid, p, [&, own = unit](double, float value, bool is_active) {
+        if (is_active) result = std::min(result, own * value);
+      });
     }
     return result;
   }
 
-  /// Gets the voxel that contains a point, and the position in it. \return false outside the range of voxel
-  /// indices, where damaged transforms may lead.
-  static bool enter(const FloatGrid& grid, const Vector3& p, Coord& base, Vector3& within) {
+  /// Calls visit(weight, value, whether it is active) for the corners of the voxel that contains a point.
+  /// There are none outside the range of voxel indices, where damaged transforms may lead.
+  template <class Visit>
+  static void visit_corners(const FloatGrid& grid, const Vector3& p, const Visit& visit) {
     const openvdb::Vec3d index = grid.worldToIndex(openvdb::Vec3d(p.x(), p.y(), p.z()));
     constexpr double farthest = 1e9;
     for (int i = 0; i < 3; ++i) {
-      if (!(std::abs(index[i]) < farthest)) return false;
+      if (!(std::abs(index[i]) < farthest)) return;
     }
-    base = Coord::floor(index);
-    within = Vector3(index[0], index[1], index[2]) - Vector3(base.x(), base.y(), base.z());
-    return true;
+    const Coord base = Coord::floor(index);
+    const Vector3 within = Vector3(index[0], index[1], index[2]) - Vector3(base.x(), base.y(), base.z());
+    for (int k = 0; k < 8; ++k) {
+      float value = 0;
+      const bool is_active = grid.tree().probeValue(base.offsetBy(k & 1, k >> 1 & 1, k >> 2), value);
+      visit(corner_weight(within, k), value, is_active);
+    }
   }
 
   /// Detects grids made by to_grid(), and sorts them finest first.
@@ -113,17 +109,12 @@ struct ExternalField {
         return fmt::format("the size {:g} at {}, and sizes are positive numbers", unit * *it,
                            place_text(Vector3(p.x(), p.y(), p.z())));
       }
-      const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
-      if (box.empty()) continue;
-      for (int k = 0; k < 8; ++k) {
-        const openvdb::Vec3d corner =
-            grid->indexToWorld(openvdb::Vec3d((k & 1) ? box.max().x() + 1 : box.min().x() - 1,
-                                              (k >> 1 & 1) ? box.max().y() + 1 : box.min().y() - 1,
-                                              (k >> 2) ? box.max().z() + 1 : box.min().z() - 1));
-        const Vector3 p(corner.x(), corner.y(), corner.z());
-        sizes.low = sizes.low.cwiseMin(p);
-        sizes.high = sizes.high.cwiseMax(p);
-      }
+      openvdb::CoordBBox voxels = grid->evalActiveVoxelBoundingBox();
+      if (voxels.empty()) continue;
+      voxels.expand(1);
+      const openvdb::BBoxd box = grid->transform().indexToWorld(voxels);
+      sizes.low = sizes.low.cwiseMin(Vector3(box.min().x(), box.min().y(), box.min().z()));
+      sizes.high = sizes.high.cwiseMax(Vector3(box.max().x(), box.max().y(), box.max().z()));
       const openvdb::Vec3d voxel = grid->voxelSize();
       sizes.voxel = std::min({sizes.voxel, voxel.x(), voxel.y(), voxel.z()});
     }
