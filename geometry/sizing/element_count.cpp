@@ -57,20 +57,6 @@ std::vector<FaceSample> sample_face(const CadShape& shape, const CadFace& face) 
 /// voxels thick and at any angle to the blocks; each coarser level repeats it with a quarter of the blocks.
 constexpr double blocks_a_square = 3.3 / 64;
 
-double blocks_on(double area, double size, const SizingOptions& options, const SizeLimits& limits) {
-  return blocks_a_square * area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
-}
-
-/// The size that is requested at a sample of a face by name, by region and by curvature.
-double size_at(const FaceSample& sample, FaceId face, const SizingOptions& options,
-               const SizeLimits& limits) {
-  double size = std::min({limits.largest, value_or(options.face_sizes, face.number(), limits.largest),
-                          size_of_curvature(options, limits, sample.curvature)});
-  for (const SizeRegion& region : options.regions)
-    if (region.distance(sample.point) <= 0) size = std::min(size, std::max(region.size, limits.least));
-  return size;
-}
-
 }  // namespace
 
 FaceSamples sample_faces(const CadShape& shape, const FaceFlags& used, ExecutionContext& context) {
@@ -114,9 +100,15 @@ ElementBudget::ElementBudget(const CadModel& model, const SizingOptions& options
   if (!(most_elements(model.shape(), used, limits.least, limit, context) > limit)) return;
   samples_ = sample_faces(model.shape(), used, context);
   double blocks = 0;
+  // The size that is requested by name, by region and by curvature.
   const double count = count_elements(samples_, [&](FaceId face, const FaceSample& sample) {
-    const double size = size_at(sample, face, options, limits);
-    if (size < limits.largest) blocks += blocks_on(sample.area, size, options, limits);
+    double size = std::min({limits.largest, value_or(options.face_sizes, face.number(), limits.largest),
+                            size_of_curvature(options, limits, sample.curvature)});
+    for (const SizeRegion& region : options.regions)
+      if (region.distance(sample.point) <= 0) size = std::min(size, std::max(region.size, limits.least));
+    if (size < limits.largest)
+      blocks +=
+          blocks_a_square * sample.area / std::pow(field_voxel(limits.largest, size, options.growth), 2);
     return size;
   });
   hold_elements(count, budget_, free_);

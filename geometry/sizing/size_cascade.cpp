@@ -3,9 +3,7 @@
 
 #include "geometry/sizing/size_cascade.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <queue>
 #include <utility>
 
@@ -49,16 +47,6 @@ int level_for(double size_max, double size) {
 void BlockCount::add() {
   const auto count = static_cast<double>(count_.fetch_add(1, std::memory_order_relaxed) + 1);
   if (count > most_) throw too_many_blocks(count);
-}
-
-double CascadeFrame::size(int level) const {
-  return std::ldexp(size_max, -level);
-}
-double CascadeFrame::voxel(int level) const {
-  return size(level) * widening(growth);
-}
-int CascadeFrame::level_of(double size) const {
-  return std::clamp(level_for(size_max, size), 0, finest);
 }
 
 SizeTree& SizeCascade::make_tree(int level) {

@@ -9,7 +9,9 @@
 #include <openvdb/tree/LeafNode.h>
 #include <openvdb/tree/RootNode.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -110,9 +112,9 @@ struct CascadeFrame {
   double growth = 0;  ///< gradation that the voxel width is chosen for
   int finest = 0;     ///< finest level whose voxel indices fit the whole model
 
-  double size(int level) const;
-  double voxel(int level) const;
-  int level_of(double size) const;
+  double size(int level) const { return std::ldexp(size_max, -level); }
+  double voxel(int level) const { return size(level) * widening(growth); }
+  int level_of(double size) const { return std::clamp(level_for(size_max, size), 0, finest); }
 };
 
 /// A cascade of trees for sizes of size_max / 2^k. Each tree's voxels are active only where the size is about

@@ -14,13 +14,6 @@ namespace quadrille {
 
 namespace {
 
-double diagonal_of_vertices(const CadShape& shape) {
-  if (shape.vertices.empty()) return 0;
-  Eigen::AlignedBox3d box;
-  for (const Vector3& vertex : shape.vertices) box.extend(vertex);
-  return box.diagonal().norm();
-}
-
 /// The largest distance of points of an edge from a box.
 double distance_from_box(const CadEdge& edge, const Vector3& low, const Vector3& high) {
   const EdgeCurve curve(edge);
@@ -44,7 +37,9 @@ std::string StrayEdge::sentence() const {
 std::vector<StrayEdge> stray_edges(const CadShape& shape, const FaceFlags& used) {
   constexpr double spans = 10;
   std::vector<EdgeId> long_ones;
-  const double usual = diagonal_of_vertices(shape);
+  Eigen::AlignedBox3d vertices;
+  for (const Vector3& vertex : shape.vertices) vertices.extend(vertex);
+  const double usual = vertices.isEmpty() ? 0 : vertices.diagonal().norm();
   for (const EdgeId id : shape.edges.ids()) {
     const CadEdge& edge = shape.edges[id];
     // Edges whose curves could not be measured have length 0.
