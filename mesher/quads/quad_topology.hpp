@@ -31,6 +31,8 @@ class QuadTopology {
   const Quad& quad(int quad) const { return quads_[quad]; }
 
   int twin(int side) const { return twins_[side]; }
+  /// The quad beyond a side; -1 = none.
+  int beyond(int side) const { return twins_[side] >> 2; }
   int origin(int side) const { return quads_[side >> 2][side & 3]; }
   int end(int side) const { return quads_[side >> 2][(side + 1) & 3]; }
   static int next(int side) { return (side & ~3) | ((side + 1) & 3); }
