@@ -13,6 +13,17 @@ namespace quadrille {
 
 namespace {
 
+/// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
+template <std::size_t n>
+double worst_part(const std::array<Vector3, n>& corners, const std::array<Vector3, n>& middles,
+                  const Vector3& center, const Vector3& normal) {
+  double worst = 1;
+  for (std::size_t k = 0; k < n; ++k)
+    worst = std::min(
+        worst, folded_scaled_jacobian(corners[k], middles[k], center, middles[(k + n - 1) % n], normal));
+  return worst;
+}
+
 class Subdivider {
  public:
   Subdivider(const FaceQuads& coarse, const MeshSurface& surface, const ExecutionContext& context)
@@ -85,23 +96,20 @@ class Subdivider {
     const int fixed = static_cast<int>(fine_.nodes.size());
     if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
     SurfaceMesh& fine = fine_.surface_mesh;
-    const auto& points = fine.mesh.points;
+    std::array<Vector3, n> corner, middle;
+    for (std::size_t k = 0; k < n; ++k) {
+      corner[k] = fine.mesh.points[renumbered_[element[k]]];
+      middle[k] = fine.mesh.points[middles[k]];
+    }
     const auto worst = [&](const Vector3& at) {
-      double result = 1;
-      for (std::size_t k = 0; k < n; ++k) {
-        result =
-            std::min(result, folded_scaled_jacobian(points[renumbered_[element[k]]], points[middles[k]], at,
-                                                    points[middles[(k + n - 1) % n]], fine.normals[center]));
-      }
-      return result;
+      return worst_part(corner, middle, at, fine.normals[center]);
     };
     constexpr double good = 0.3;
-    const double before = worst(points[center]);
+    const double before = worst(fine.mesh.points[center]);
     if (before > good) return;
     Vector3 target = Vector3::Zero();
     constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
-    for (std::size_t k = 0; k < n; ++k)
-      target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
+    for (std::size_t k = 0; k < n; ++k) target += of_middle * middle[k] + of_corner * corner[k];
     const SurfacePlace place = fine.moved(surface_, center, target);
     if (worst(place.point) > before) fine.put(center, place);
   }
@@ -166,24 +174,6 @@ class SideMiddles {
   std::vector<char> on_boundary_;
 };
 
-/// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
-template <std::size_t n>
-double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& corners,
-                  const SideMiddles& middles, const Vector3& normal) {
-  std::array<Vector3, n> middle;
-  Vector3 center = Vector3::Zero();
-  for (std::size_t k = 0; k < n; ++k) {
-    middle[k] = middles.between(corners[k], corners[(k + 1) % n]);
-    center += middle[k] / static_cast<double>(n);
-  }
-  double worst = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    worst = std::min(worst, folded_scaled_jacobian(points[corners[k]], middle[k], center,
-                                                   middle[(k + n - 1) % n], normal));
-  }
-  return worst;
-}
-
 }  // namespace
 
 int FaceQuads::add(const SurfacePlace& place, bool fixed, bool is_pole) {
@@ -224,7 +214,15 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
       const double shorter = std::min((p[b] - p[a]).norm(), (p[d] - p[c]).norm());
       const double one = (p[c] - p[b]).norm(), other = (p[a] - p[d]).norm();
       if (!(std::min(one, other) < widest_gap * shorter && std::max(one, other) < shorter)) continue;
-      const double worst = worst_part(p, quad, middles, normals[a] + normals[b] + normals[c] + normals[d]);
+      std::array<Vector3, 4> corner, middle;
+      Vector3 center = Vector3::Zero();
+      for (int i = 0; i < 4; ++i) {
+        corner[i] = p[quad[i]];
+        middle[i] = middles.between(quad[i], quad[(i + 1) % 4]);
+        center += middle[i] / 4;
+      }
+      const double worst =
+          worst_part(corner, middle, center, normals[a] + normals[b] + normals[c] + normals[d]);
       if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
     }
   };
