@@ -1,7 +1,7 @@
 /// Grows a patch to the nearest irregular nodes, refills its outline, and keeps the result if it is not
 /// worse.
 
-#include "mesher/quads/cavities.hpp"
+#include "mesher/quads/improve.hpp"
 
 #include <algorithm>
 #include <cmath>

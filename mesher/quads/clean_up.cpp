@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesher/quads/cavities.hpp"
 #include "mesher/quads/edited_mesh.hpp"
+#include "mesher/quads/improve.hpp"
 #include "mesher/quads/patch_templates.hpp"
 
 namespace quadrille {

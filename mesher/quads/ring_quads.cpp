@@ -1,9 +1,12 @@
 /// Numbers the rings' nodes after those of the rest, and adds their quads.
 
-#include "mesher/quads/ring_quads.hpp"
-
 #include <utility>
 #include <vector>
+
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/faces/hole_rings.hpp"
+#include "mesher/mesh/sides.hpp"
+#include "mesher/quads/face_quads.hpp"
 
 namespace quadrille {
 

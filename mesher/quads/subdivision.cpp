@@ -1,6 +1,6 @@
 /// Splits each quad and triangle at its center and the middles of its sides, on the surface.
 
-#include "mesher/quads/subdivision.hpp"
+#include "mesher/quads/face_quads.hpp"
 
 #include <algorithm>
 #include <span>

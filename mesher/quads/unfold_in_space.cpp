@@ -1,6 +1,6 @@
 /// Tries places that complete parallelograms, then shorter and shorter steps along the axes.
 
-#include "mesher/quads/unfold_in_space.hpp"
+#include "mesher/quads/improve.hpp"
 
 #include <algorithm>
 #include <map>
