@@ -16,6 +16,7 @@
 
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/contacts.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 
 namespace quadrille {
@@ -86,7 +87,7 @@ class Count {
   void count_quads() {
     std::vector<std::array<int, 4>> places = mesh_.quads;
     for (std::array<int, 4>& place : places) {
-      for (int& node : place) node = first_[node];
+      place = with_numbers(place, first_);
       std::sort(place.begin(), place.end());
     }
     std::sort(places.begin(), places.end());

@@ -12,6 +12,7 @@
 #include <unordered_set>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 #include "mesher/quads/polygon_filling.hpp"
@@ -280,8 +281,7 @@ class Cavities : private EditedMesh {
     for (std::size_t i = cavity_.ring.size(); i < filling.places.size(); ++i)
       nodes.push_back(place(filling.places[i]));
     std::vector<Quad> quads = filling.quads;
-    for (Quad& quad : quads)
-      for (int& node : quad) node = nodes[node];
+    for (Quad& quad : quads) quad = with_numbers(quad, nodes);
     const auto count = static_cast<double>(quads.size());
     const bool done = !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable_filling) &&
                       mean_objective(quads) <

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -183,12 +184,10 @@ std::vector<int> EditedMesh::write_back() {
     if (!mesh_.fixed[node] && (on_triangle_[node] || topology_.side_of(node) >= 0)) keep(node);
   for (int quad = 0; quad < topology_.size(); ++quad) {
     check();
-    if (!topology_.alive(quad)) continue;
-    const Quad& q = topology_.quad(quad);
-    result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
+    if (topology_.alive(quad)) result.mesh.quads.push_back(with_numbers(topology_.quad(quad), number));
   }
-  for (auto& triangle : mesh_.mesh.triangles)
-    result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
+  for (const auto& triangle : mesh_.mesh.triangles)
+    result.mesh.triangles.push_back(with_numbers(triangle, number));
   context_.check();
   mesh_ = std::move(result);
   return kept;

@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 
@@ -435,8 +436,7 @@ class Mending : private EditedMesh {
       changed_.push_back(0);
     }
     std::vector<Quad> quads(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads);
-    for (Quad& quad : quads)
-      for (int& node : quad) node = trial.nodes[node];
+    for (Quad& quad : quads) quad = with_numbers(quad, trial.nodes);
     return topology_.replace(candidate.patch.span(), quads);
   }
 
