@@ -93,28 +93,30 @@ class CleanUp : private EditedMesh {
     ++round_;
     const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
     if (fan.quads > 12) return false;
-    std::array<int, 12> sides;
-    for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) sides[i] = at;
+    std::array<int, 12> sides, quads;
+    for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) {
+      sides[i] = at;
+      quads[i] = at >> 2;
+    }
 
     // The node's own ring.
     SmallPatch ring;
-    bool whole = true;
-    for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
+    const bool whole = topology_.add_fan(fan.first, ring);
     if (whole && ring.quads.size() > 1 && try_patch(ring)) return true;
     // Pairs of quads, then chains of three.
     for (int i = 0; i < fan.quads; ++i)
       for (int k = 0; k < 4; ++k) {
         SmallPatch pair;
-        pair.add(sides[i] >> 2);
-        if (topology_.beyond(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
-          continue;  // that pair is tried from there
-        if (pair.add(topology_.beyond(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
+        pair.add(quads[i]);
+        const int beyond = topology_.beyond(4 * quads[i] + k);
+        if (beyond == quads[(i + 1) % fan.quads]) continue;  // that pair is tried from there
+        if (pair.add(beyond) && try_patch(pair)) return true;
       }
     for (int i = 0; i < fan.quads; ++i)
       for (int k = 0; k < 4; ++k) {
         SmallPatch pair;
-        pair.add(sides[i] >> 2);
-        if (!pair.add(topology_.beyond(4 * (sides[i] >> 2) + k))) continue;
+        pair.add(quads[i]);
+        if (!pair.add(topology_.beyond(4 * quads[i] + k))) continue;
         for (const int member : pair.quads)
           for (int j = 0; j < 4; ++j) {
             SmallPatch triple = pair;
@@ -124,12 +126,10 @@ class CleanUp : private EditedMesh {
       }
     // The node's ring with the ring of each other node of its quads.
     for (int i = 0; i < fan.quads && whole; ++i)
-      for (int step = 1; step <= 2; ++step) {
-        const Quad& q = topology_.quad(sides[i] >> 2);
-        const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
-        if (!topology_.closed(topology_.origin(other_side))) continue;
+      for (const int other : {QuadTopology::next(sides[i]), QuadTopology::opposite(sides[i])}) {
+        if (!topology_.closed(topology_.origin(other))) continue;
         SmallPatch both = ring;
-        if (topology_.add_fan(other_side, both) && try_patch(both)) return true;
+        if (topology_.add_fan(other, both) && try_patch(both)) return true;
       }
     return false;
   }

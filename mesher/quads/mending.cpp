@@ -186,14 +186,13 @@ std::vector<SmallPatch> patches_of(const QuadTopology& topology, int quad) {
   SmallPatch one;
   one.add(quad);
   grow(topology, one, 3, patches);
-  const Quad& q = topology.quad(quad);
-  for (int k = 0; k < 4; ++k) {
+  for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
     SmallPatch ring = one;
-    if (!topology.add_fan(topology.side_at(quad, q[k]), ring)) continue;
+    if (!topology.add_fan(side, ring)) continue;
     patches.add(ring);
-    for (const int other : {q[(k + 1) & 3], q[(k + 2) & 3]}) {
+    for (const int other : {QuadTopology::next(side), QuadTopology::opposite(side)}) {
       SmallPatch both = ring;
-      if (topology.add_fan(topology.side_at(quad, other), both)) patches.add(both);
+      if (topology.add_fan(other, both)) patches.add(both);
     }
   }
   return std::move(patches.list);
@@ -343,7 +342,8 @@ class Mending : private EditedMesh {
   /// Adds the quads next to the patch; false if there are too many.
   bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) {
     boost::container::static_vector<int, Trial::max_quads> met;
-    const auto add = [&](int quad) {
+    const auto add = [&](int side) {
+      const int quad = side >> 2;
       if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) return true;
       if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points) return false;
       met.push_back(quad);
@@ -407,8 +407,8 @@ class Mending : private EditedMesh {
       changed_[node] = 1;
       if (!trial.movable[i]) continue;
       mesh_.put(node, places[i]);
-      topology_.all_around(topology_.side_of(node), [&](int quad) {
-        forget(quad);
+      topology_.all_around(topology_.side_of(node), [&](int side) {
+        forget(side >> 2);
         return true;
       });
     }
