@@ -69,7 +69,6 @@ class Count {
     if (result_.nodes == 0) return std::move(result_);
     find_faces();
     count_segments();
-    result_.faces.assign(faces_.begin(), faces_.end());
     return std::move(result_);
   }
 
@@ -95,11 +94,13 @@ class Count {
   }
 
   void find_faces() {
+    std::set<int> faces;
     for (std::size_t i = 0; i < mesh_.quad_faces.size(); ++i) {
       const std::array<int, 4>& quad = mesh_.quads[i];
       if (std::any_of(quad.begin(), quad.end(), [&](int node) { return met_[node] != 0; }))
-        faces_.insert(mesh_.quad_faces[i]);
+        faces.insert(mesh_.quad_faces[i]);
     }
+    result_.faces.assign(faces.begin(), faces.end());
   }
 
   void count_segments() {
@@ -136,7 +137,6 @@ class Count {
   const ShellMesh& mesh_;
   std::vector<int> first_;
   std::vector<char> met_;
-  std::set<int> faces_;
   Coincidences result_;
 };
 
