@@ -65,24 +65,20 @@ class Enumeration {
     const int mark = next_node_;
     const int c = i < 0 ? next_node_++ : ring[i];
     const int d = j < 0 ? next_node_++ : ring[j];
+    // Each part runs along the ring to the next corner that lies on it, and back over the new ones between.
     Parts parts;
-    const auto arc = [&](int from, int to) {
-      Ring part;
+    Ring fresh;
+    int from = 1;
+    for (const auto& [to, corner] : {std::pair(i, c), std::pair(j, d), std::pair(n, 0)}) {
+      if (to < 0) {
+        fresh.push_back(static_cast<std::int8_t>(corner));
+        continue;
+      }
+      Ring& part = parts.emplace_back();
       for (int k = from; k <= to; ++k) part.push_back(ring[k % n]);
-      return part;
-    };
-    if (i >= 0 && j >= 0) {
-      parts = {arc(1, i), arc(i, j), arc(j, n)};
-    } else if (i >= 0) {
-      parts = {arc(1, i), arc(i, n)};
-      parts.back().push_back(d);
-    } else if (j >= 0) {
-      parts = {arc(1, j), arc(j, n)};
-      parts.front().push_back(c);
-    } else {
-      parts = {arc(1, n)};
-      parts.back().push_back(d);
-      parts.back().push_back(c);
+      part.insert(part.end(), fresh.rbegin(), fresh.rend());
+      fresh.clear();
+      from = to;
     }
     bool even = true;
     for (const Ring& part : parts) even = even && part.size() % 2 == 0;
