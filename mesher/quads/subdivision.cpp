@@ -8,6 +8,7 @@
 
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -196,18 +197,16 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
   if (between.size() < 2) return;
   const SideMiddles middles(p, segments);
   const auto on_boundary = [&](int a, int b) { return middles.on_boundary(a, b); };
-  struct Corner {
-    int triangle, k;  ///< the side from corner k
-  };
-  std::unordered_map<std::uint64_t, Corner> open;  // inner sides of triangles at the boundary
+  std::unordered_map<std::uint64_t, Side> open;  // inner sides of triangles at the boundary
   struct Pair {
     double worst;
     int first, second;
   };
   std::vector<Pair> pairs;
-  const auto try_pair = [&](const Corner& here, const Corner& there) {
-    const auto &t = mesh.triangles[here.triangle], &u = mesh.triangles[there.triangle];
-    const std::array quad{t[here.k], u[(there.k + 2) % 3], t[(here.k + 1) % 3], t[(here.k + 2) % 3]};
+  const auto try_pair = [&](Side here, Side there) {
+    const auto &t = mesh.triangles[element_of(here)], &u = mesh.triangles[element_of(there)];
+    const int i = index_of(here), j = index_of(there);
+    const std::array quad{t[i], u[(j + 2) % 3], t[(i + 1) % 3], t[(i + 2) % 3]};
     for (int k = 0; k < 2; ++k) {
       const int a = quad[k], b = quad[k + 1], c = quad[k + 2], d = quad[(k + 3) % 4];
       if (!on_boundary(a, b) || !on_boundary(c, d)) continue;
@@ -216,22 +215,22 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
       if (!(std::min(one, other) < widest_gap * shorter && std::max(one, other) < shorter)) continue;
       std::array<Vector3, 4> corner, middle;
       Vector3 center = Vector3::Zero();
-      for (int i = 0; i < 4; ++i) {
-        corner[i] = p[quad[i]];
-        middle[i] = middles.between(quad[i], quad[(i + 1) % 4]);
-        center += middle[i] / 4;
+      for (int at = 0; at < 4; ++at) {
+        corner[at] = p[quad[at]];
+        middle[at] = middles.between(quad[at], quad[(at + 1) % 4]);
+        center += middle[at] / 4;
       }
       const double worst =
           worst_part(corner, middle, center, normals[a] + normals[b] + normals[c] + normals[d]);
-      if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
+      if (worst > good) pairs.push_back({worst, element_of(here), element_of(there)});
     }
   };
   for (const int i : between) {
     const auto& t = mesh.triangles[i];
     if (!on_boundary(t[0], t[1]) && !on_boundary(t[1], t[2]) && !on_boundary(t[2], t[0])) continue;
     for (int k = 0; k < 3; ++k) {
-      const auto [at, is_new] = open.try_emplace(side_key(t[k], t[(k + 1) % 3]), Corner{i, k});
-      if (!is_new) try_pair(at->second, {i, k});
+      const auto [at, is_new] = open.try_emplace(side_key(t[k], t[(k + 1) % 3]), make_side(i, k));
+      if (!is_new) try_pair(at->second, make_side(i, k));
     }
   }
   if (pairs.empty()) return;
