@@ -32,7 +32,7 @@ struct Outline {  // NOLINT(bugprone-exception-escape): moves may allocate
 
 /// Quads that are tried as one patch.
 struct SmallPatch {
-  static constexpr std::size_t max_quads = 8, max_inside = 4;
+  static constexpr std::size_t max_quads = 8, max_inside = 4;  ///< quads, and nodes inside
   boost::container::static_vector<int, max_quads> quads;
 
   std::span<const int> span() const { return {quads.data(), quads.size()}; }
