@@ -16,6 +16,7 @@
 
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/contacts.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/mesh/surface_cut.hpp"
 
 namespace quadrille {
@@ -68,7 +69,6 @@ class Count {
     if (result_.nodes == 0) return std::move(result_);
     find_faces();
     count_segments();
-    result_.faces.assign(faces_.begin(), faces_.end());
     return std::move(result_);
   }
 
@@ -86,7 +86,7 @@ class Count {
   void count_quads() {
     std::vector<std::array<int, 4>> places = mesh_.quads;
     for (std::array<int, 4>& place : places) {
-      for (int& node : place) node = first_[node];
+      place = with_numbers(place, first_);
       std::sort(place.begin(), place.end());
     }
     std::sort(places.begin(), places.end());
@@ -94,11 +94,13 @@ class Count {
   }
 
   void find_faces() {
+    std::set<int> faces;
     for (std::size_t i = 0; i < mesh_.quad_faces.size(); ++i) {
       const std::array<int, 4>& quad = mesh_.quads[i];
       if (std::any_of(quad.begin(), quad.end(), [&](int node) { return met_[node] != 0; }))
-        faces_.insert(mesh_.quad_faces[i]);
+        faces.insert(mesh_.quad_faces[i]);
     }
+    result_.faces.assign(faces.begin(), faces.end());
   }
 
   void count_segments() {
@@ -135,7 +137,6 @@ class Count {
   const ShellMesh& mesh_;
   std::vector<int> first_;
   std::vector<char> met_;
-  std::set<int> faces_;
   Coincidences result_;
 };
 

@@ -28,6 +28,13 @@ inline int index_of(Side side) {
   return side & 3;
 }
 
+/// An element with other numbers for its nodes.
+template <class Element, class Numbers>
+Element with_numbers(Element element, const Numbers& numbers) {
+  for (int& node : element) node = numbers[node];
+  return element;
+}
+
 /// For loops that are too short to be cancelled.
 inline constexpr auto no_check = [] {};
 

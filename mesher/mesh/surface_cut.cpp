@@ -107,62 +107,37 @@ void cut_twins(const TriangleMesh& mesh, double angle, const std::vector<std::ar
 }
 
 /// Copies each point for every fan of triangles around it but the first.
-class PointSplitter {
- public:
-  PointSplitter(const Twins& twins, CutSurface& surface)
-      : twins_(twins),
-        surface_(surface),
-        done_(twins.size(), {0, 0, 0}),
-        met_(surface.mesh.points.size(), 0) {}
-
-  void split() {
-    for (int t = 0; t < static_cast<int>(twins_.size()); ++t)
-      for (int i = 0; i < 3; ++i)
-        if (!done_[t][i]) number_fan(t, i);
-  }
-
- private:
-  void number_fan(int t, int i) {
-    TriangleMesh& mesh = surface_.mesh;
-    int point = mesh.triangles[t][i];
-    if (met_[point]) {
-      surface_.original.push_back(point);
-      mesh.points.push_back(Vector3(mesh.points[point]));
-      if (!mesh.fixed.empty()) mesh.fixed.push_back(mesh.fixed[point]);
-      point = static_cast<int>(mesh.points.size()) - 1;
-    } else {
-      met_[point] = 1;
+void split_points(const Twins& twins, CutSurface& surface) {
+  TriangleMesh& mesh = surface.mesh;
+  std::vector<char> met(mesh.points.size(), 0), done(4 * twins.size(), 0);
+  std::vector<Side> fan;  // corners still to be followed
+  const auto take = [&](Side corner, int point) {
+    if (done[corner]) return;
+    done[corner] = 1;
+    mesh.triangles[triangle_of(corner)][index_of(corner)] = point;
+    fan.push_back(corner);
+  };
+  for (int t = 0; t < static_cast<int>(twins.size()); ++t)
+    for (int i = 0; i < 3; ++i) {
+      if (done[make_side(t, i)]) continue;
+      int point = mesh.triangles[t][i];
+      if (std::exchange(met[point], 1)) {
+        surface.original.push_back(point);
+        mesh.points.push_back(Vector3(mesh.points[point]));
+        if (!mesh.fixed.empty()) mesh.fixed.push_back(mesh.fixed[point]);
+        point = static_cast<int>(mesh.points.size()) - 1;
+      }
+      take(make_side(t, i), point);
+      while (!fan.empty()) {
+        const int at = triangle_of(fan.back()), corner = index_of(fan.back());
+        fan.pop_back();
+        // The same point beyond the side that leaves it and beyond the one that reaches it.
+        const Side out = twins[at][corner], in = twins[at][previous_index(corner)];
+        if (out >= 0) take(make_side(triangle_of(out), next_index(index_of(out))), point);
+        if (in >= 0) take(in, point);
+      }
     }
-    // First across the side that leaves the point, all the way around or to the end; then the other way.
-    int at = t, corner = i;
-    while (take(at, corner, point)) {
-      const Side twin = twins_[at][corner];
-      if (twin < 0) break;
-      at = triangle_of(twin);
-      corner = next_index(index_of(twin));
-    }
-    at = t;
-    corner = i;
-    for (Side twin = twins_[at][previous_index(corner)]; twin >= 0;
-         twin = twins_[at][previous_index(corner)]) {
-      at = triangle_of(twin);
-      corner = index_of(twin);
-      if (!take(at, corner, point)) break;
-    }
-  }
-
-  bool take(int t, int corner, int point) {
-    if (done_[t][corner]) return false;
-    done_[t][corner] = 1;
-    surface_.mesh.triangles[t][corner] = point;
-    return true;
-  }
-
-  const Twins& twins_;
-  CutSurface& surface_;
-  std::vector<std::array<char, 3>> done_;
-  std::vector<char> met_;
-};
+}
 
 }  // namespace
 
@@ -232,7 +207,7 @@ CutSurface cut_surface(const TriangleMesh& mesh, double angle, std::vector<std::
     std::iota(surface.original.begin(), surface.original.end(), 0);
     const auto twin_of = [&](Side side) { return twins[triangle_of(side)][index_of(side)]; };
     surface.pieces = number_pieces(twins.size(), twin_of, surface.mesh.tags);
-    PointSplitter(twins, surface).split();
+    split_points(twins, surface);
     // A cut along a single side separates no points. It continues along the next side of its triangle.
     const std::size_t count = sides.size();
     for (int t = 0; t < static_cast<int>(twins.size()); ++t) {

@@ -14,7 +14,7 @@ namespace {
 /// Corner angles of a triangle and its unit normal. The angles of an inverted triangle are negative.
 struct TriangleShape {
   float angle[3];
-  float normal[3];
+  Eigen::Vector3f normal;
 };
 
 /// atan2(y, x) for y >= 0, to 2e-6.
@@ -39,7 +39,7 @@ TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vecto
   shape.angle[1] = arc(static_cast<float>(area), static_cast<float>(-bc.dot(ab)));
   shape.angle[2] = 3.14159265F - shape.angle[0] - shape.angle[1];
   const double scale = area > 0 ? 1 / area : 0;
-  for (int k = 0; k < 3; ++k) shape.normal[k] = static_cast<float>(cross[k] * scale);
+  shape.normal = (cross * scale).cast<float>();
   return shape;
 }
 
@@ -132,10 +132,10 @@ void CostedColoring::update_cost(Side side, const std::vector<Vector3>& points) 
     for (Side neighbor : cell(t).twin) {
       if (neighbor >= 0) add(triangle_of(neighbor));
     }
-    const Vector3 normal(result.normal[0], result.normal[1], result.normal[2]);
+    const Vector3 normal = result.normal.cast<double>();
     if (normal.dot(mean) < 0) {
       for (float& angle : result.angle) angle = -angle;
-      for (float& component : result.normal) component = -component;
+      result.normal = -result.normal;
     }
     return result;
   };

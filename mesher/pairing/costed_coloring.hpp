@@ -60,4 +60,11 @@ class CostedColoring : public EdgeColoring {
 /// sort). Based on: Karp & Sipser, Maximum matching in sparse random graphs (1981).
 void color_by_cost(CostedColoring& coloring, const ExecutionContext& context = {});
 
+/// Moves free triangles to each other: a triangle and a quad beside it form a pentagon, which can be cut into
+/// a quad and a triangle on the far side. Two triangles that meet become a quad. Diagonals of pairs are
+/// flipped where the way needs it. Afterwards a connected piece has at most one free triangle, unless no way
+/// was found. \return the number of triangles still free.
+int migrate_free_triangles(CostedColoring& coloring, const std::vector<Vector3>& points,
+                           const ExecutionContext& context = {});
+
 }  // namespace quadrille

@@ -107,7 +107,7 @@ class BlankRemover {
   bool fill(Side side) {
     const int colors = available(coloring_, side);
     if (colors == 0) return false;
-    coloring_.color_blank(side, pick(colors, random_));
+    coloring_.set_color(side, pick(colors, random_));
     return true;
   }
 

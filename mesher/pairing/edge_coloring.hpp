@@ -75,13 +75,6 @@ class EdgeColoring {
     }
   }
 
-  /// Gives a blank side a color that neither of its triangles has.
-  void color_blank(Side side, int color) {
-    const Side other = twin(side);
-    cell(triangle_of(side)).places ^= place_of(color, index_of(side));
-    cell(triangle_of(other)).places ^= place_of(color, index_of(other));
-  }
-
   /// The side of a triangle that has a color; -1 if none has.
   Side side_of(int triangle, int color) const {
     const int i = cell(triangle).at(color);

@@ -1,6 +1,6 @@
 /// Moves free triangles over pairs to each other by the cheapest way (Dijkstra), in each connected piece.
 
-#include "mesher/pairing/free_triangles.hpp"
+#include "mesher/pairing/costed_coloring.hpp"
 
 #include <algorithm>
 #include <functional>

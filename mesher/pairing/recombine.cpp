@@ -8,7 +8,6 @@
 #include "mesher/mesh/side_twins.hpp"
 #include "mesher/pairing/augmenting_paths.hpp"
 #include "mesher/pairing/costed_coloring.hpp"
-#include "mesher/pairing/free_triangles.hpp"
 
 namespace quadrille {
 

@@ -1,16 +1,18 @@
 /// Grows a patch to the nearest irregular nodes, refills its outline, and keeps the result if it is not
 /// worse.
 
-#include "mesher/quads/cavities.hpp"
+#include "mesher/quads/improve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <unordered_set>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 #include "mesher/quads/polygon_filling.hpp"
@@ -93,117 +95,18 @@ class GrowingPatch {
   std::vector<int> uses_;    ///< by node: quads of the patch
 };
 
-/// A patch as a polygon with nodes inside.
-struct Cavity {
-  std::vector<int> ring, inside;  ///< nodes
-  std::vector<int> corners;       ///< indices into the ring
-  int cost = 0;                   ///< valence cost of the patch as it is
+/// The polygon around a patch.
+struct Cavity : Outline {    // NOLINT(bugprone-exception-escape): as Outline
+  std::vector<int> corners;  ///< indices into the ring
+  int cost = 0;              ///< valence cost of the patch as it is
 };
 
-/// Replaces patches by the first filling that is not worse.
-class CavityFiller {
- public:
-  CavityFiller(EditedMesh& mesh, const MeshSurface& surface) : mesh_(mesh), surface_(surface) {}
-
-  /// Replaces a patch by a filling with fewer irregular nodes, if there is one. \return whether it did.
-  bool fill(GrowingPatch& patch, const Cavity& cavity) {
-    if (cavity.cost < 2 || !is_flat(cavity) || !seen_.insert(patch.fingerprint()).second) return false;
-    std::vector<Vector3> outline;
-    for (const int node : cavity.ring) outline.push_back(mesh_.point(node));
-    const auto share = [&](double of) { return round_to_int(of * static_cast<double>(patch.size())); };
-    // Quads gained or lost already may be given back, however many they are.
-    const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
-    const int count = static_cast<int>(patch.size()) - drift_;
-    const FillingLimits limits{.most_irregular = cavity.cost - 1,
-                               .least_quads = std::max(share(least_share), count - drift),
-                               .most_quads = std::min({share(most_share), count + drift, max_quads})};
-    return fill_polygon(outline, cavity.corners, limits,
-                        [&](const PolygonFilling& filling) { return put(filling, patch, cavity); });
-  }
-
- private:
-  /// Whether the patch is flat enough for places interpolated between its nodes to make sense.
-  bool is_flat(const Cavity& cavity) const {
-    constexpr double least_cosine = 0.7;
-    Vector3 mean = Vector3::Zero();
-    for (const int node : cavity.ring) mean += mesh_.normal(node);
-    mean.normalize();
-    const auto turned = [&](int node) { return !(mesh_.normal(node).dot(mean) > least_cosine); };
-    return std::none_of(cavity.ring.begin(), cavity.ring.end(), turned) &&
-           std::none_of(cavity.inside.begin(), cavity.inside.end(), turned);
-  }
-
-  /// The mean distance of the quads from the industry criteria; no quad counts for more than `max_each`.
-  double mean_objective(const std::vector<Quad>& quads) const {
-    constexpr double max_each = 20;
-    double sum = 0;
-    for (const Quad& quad : quads) sum += std::min(max_each, measure_objective(mesh_.points(), quad).value);
-    return sum / static_cast<double>(quads.size());
-  }
-
-  /// Replaces the patch by a filling unless its quads are worse.
-  bool put(const PolygonFilling& filling, GrowingPatch& patch, const Cavity& cavity) {
-    std::vector<Quad> before;
-    for (const int quad : patch.quads()) before.push_back(mesh_.topology().quad(quad));
-    std::vector<int> nodes = cavity.ring;
-    for (std::size_t i = cavity.ring.size(); i < filling.places.size(); ++i)
-      nodes.push_back(place(filling.places[i], cavity));
-    std::vector<Quad> quads = filling.quads;
-    for (Quad& quad : quads)
-      for (int& node : quad) node = nodes[node];
-    const auto count = static_cast<double>(quads.size());
-    const bool done = !mesh_.too_long(before, quads) &&
-                      mesh_.worst(quads) > std::min(mesh_.worst(before), mendable_filling) &&
-                      mean_objective(quads) <
-                          mean_objective(before) + rise_per_cost * (cavity.cost - filling.irregular) / count;
-    const std::vector<int> old = patch.quads();
-    patch.clear();
-    if (done && mesh_.topology().replace(old, quads)) {
-      spare_.clear();
-      drift_ += static_cast<int>(quads.size()) - static_cast<int>(old.size());
-      return true;
-    }
-    patch.restore(old);
-    // Keep the new nodes for the next filling.
-    spare_.assign(nodes.begin() + static_cast<long>(cavity.ring.size()), nodes.end());
-    return false;
-  }
-
-  /// A free node at the point of the surface nearest to the target.
-  int place(const Vector3& target, const Cavity& cavity) {
-    const auto nearest = [&](const std::vector<int>& nodes, int best) {
-      for (const int node : nodes)
-        if (best < 0 ||
-            (mesh_.point(node) - target).squaredNorm() < (mesh_.point(best) - target).squaredNorm())
-          best = node;
-      return best;
-    };
-    const int donor = nearest(cavity.inside, nearest(cavity.ring, -1));
-    int node = -1;
-    if (spare_.empty()) {
-      node = mesh_.add_node_like(donor);
-    } else {
-      node = spare_.back();
-      spare_.pop_back();
-      mesh_.mesh().parameters[node] = mesh_.mesh().parameters[donor];
-    }
-    mesh_.mesh().put(node, mesh_.mesh().moved(surface_, node, target));
-    return node;
-  }
-
-  EditedMesh& mesh_;
-  const MeshSurface& surface_;
-  const int first_count_ = mesh_.topology().size();
-  int drift_ = 0;                           ///< quads gained since the start
-  std::vector<int> spare_;                  ///< nodes that no quad uses
-  std::unordered_set<std::uint64_t> seen_;  ///< fingerprints of patches tried before
-};
-
-/// Grows patches from irregular nodes until they can be filled.
+/// Grows patches from irregular nodes until they can be filled, and replaces them by the first filling that
+/// is not worse.
 class Cavities : private EditedMesh {
  public:
   Cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context)
-      : EditedMesh(mesh, context), filler_(*this, surface) {}
+      : EditedMesh(mesh, context), surface_(surface) {}
 
   int run() {
     const int first_node_count = node_count();
@@ -234,7 +137,6 @@ class Cavities : private EditedMesh {
   bool mend(int node) {
     patch_.make_room(node_count());
     reached_.resize(topology_.size(), 0);
-    met_.resize(node_count(), 0);
     tried_.clear();
     for (const bool chooses : {false, true}) {
       chooses_ = chooses;
@@ -251,7 +153,7 @@ class Cavities : private EditedMesh {
     last_corners_ = 4;
     for (int growth = 0; growth < (chooses_ ? few_growths : max_growths); ++growth) {
       const bool fits = make_convex() && trace();
-      if (fits && filler_.fill(patch_, cavity_)) return true;
+      if (fits && fill()) return true;
       if (fits) {
         last = patch_.quads();
         last_corners_ = static_cast<int>(cavity_.corners.size());
@@ -308,7 +210,7 @@ class Cavities : private EditedMesh {
         return add_fan(node);
       }
       for (int side = 4 * queue[i]; side < 4 * queue[i] + 4; ++side) {
-        const int beyond = topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
+        const int beyond = topology_.beyond(side);
         if (beyond < 0 || reached_[beyond] == search_) continue;
         reached_[beyond] = search_;
         queue.push_back(beyond);
@@ -318,64 +220,118 @@ class Cavities : private EditedMesh {
     return false;
   }
 
-  bool is_outer(int side) const {
-    const int twin = topology_.twin(side);
-    return twin < 0 || !patch_.contains(twin >> 2);
-  }
-
-  /// Finds the outline, its corners, the nodes inside and the valence cost. False if the patch is not a disc,
-  /// has nodes inside that must stay, or would have a reflex corner.
+  /// Finds the outline, its corners and the valence cost. False if the patch is not a disc, has nodes inside
+  /// that must stay, or would have a reflex corner.
   bool trace() {
-    cavity_.ring.clear();
-    cavity_.corners.clear();
-    cavity_.inside.clear();
-    cavity_.cost = 0;
-    ++search_;
-    int start = -1, outer = 0;
-    for (const int quad : patch_.quads())
-      for (int side = 4 * quad; side < 4 * quad + 4; ++side)
-        if (is_outer(side)) {
-          start = side;
-          ++outer;
-        }
-    if (start < 0) return false;
-    int side = start;
-    do {
-      const int node = topology_.origin(side);
-      if (met_[node] == search_) return false;
-      met_[node] = search_;
-      // The node's quads in the patch lie side by side; otherwise the outline would meet itself here.
-      int quads = patch_.uses(node);
+    cavity_ = {};
+    if (!EditedMesh::trace(std::span<const int>(patch_.quads()), cavity_)) return false;
+    for (int i = 0; i < cavity_.length(); ++i) {
+      const int node = cavity_.ring[i];
+      int quads = cavity_.uses[i];
       if (!inner(node) && !on_triangle_[node] && topology_.openings(node) == 1 && quads == valence(node)) {
         cavity_.cost += cost(node);
         quads = wanted(node);
       }
       if (quads > 2) return false;
-      if (quads == 1) cavity_.corners.push_back(static_cast<int>(cavity_.ring.size()));
-      cavity_.ring.push_back(node);
-      for (side = QuadTopology::next(side); !is_outer(side);) side = QuadTopology::next(topology_.twin(side));
-    } while (side != start);
-    if (static_cast<int>(cavity_.ring.size()) != outer) return false;
-    for (const int quad : patch_.quads())
-      for (const int node : topology_.quad(quad)) {
-        if (met_[node] == search_) continue;
-        met_[node] = search_;
-        if (!inner(node)) return false;
-        cavity_.inside.push_back(node);
-        cavity_.cost += cost(node);
-      }
-    return static_cast<int>(patch_.size()) == outer / 2 - 1 + static_cast<int>(cavity_.inside.size());
+      if (quads == 1) cavity_.corners.push_back(i);
+    }
+    for (const int node : cavity_.inside) cavity_.cost += cost(node);
+    return true;
+  }
+
+  /// Replaces a patch by a filling with fewer irregular nodes, if there is one. \return whether it did.
+  bool fill() {
+    if (cavity_.cost < 2 || !is_flat() || !seen_.insert(patch_.fingerprint()).second) return false;
+    std::vector<Vector3> outline;
+    for (const int node : cavity_.ring) outline.push_back(point(node));
+    const auto share = [&](double of) { return round_to_int(of * static_cast<double>(patch_.size())); };
+    // Quads gained or lost already may be given back, however many they are.
+    const int drift = std::max({std::abs(drift_), few_quads, static_cast<int>(most_drift * first_count_)});
+    const int count = static_cast<int>(patch_.size()) - drift_;
+    const FillingLimits limits{.most_irregular = cavity_.cost - 1,
+                               .least_quads = std::max(share(least_share), count - drift),
+                               .most_quads = std::min({share(most_share), count + drift, max_quads})};
+    return fill_polygon(outline, cavity_.corners, limits,
+                        [&](const PolygonFilling& filling) { return put(filling); });
+  }
+
+  /// Whether the patch is flat enough for places interpolated between its nodes to make sense.
+  bool is_flat() const {
+    constexpr double least_cosine = 0.7;
+    Vector3 mean = Vector3::Zero();
+    for (const int node : cavity_.ring) mean += normal(node);
+    mean.normalize();
+    const auto turned = [&](int node) { return !(normal(node).dot(mean) > least_cosine); };
+    return std::none_of(cavity_.ring.begin(), cavity_.ring.end(), turned) &&
+           std::none_of(cavity_.inside.begin(), cavity_.inside.end(), turned);
+  }
+
+  /// The mean distance of the quads from the industry criteria; no quad counts for more than `max_each`.
+  double mean_objective(const std::vector<Quad>& quads) const {
+    constexpr double max_each = 20;
+    double sum = 0;
+    for (const Quad& quad : quads) sum += std::min(max_each, measure_objective(points(), quad).value);
+    return sum / static_cast<double>(quads.size());
+  }
+
+  /// Replaces the patch by a filling unless its quads are worse.
+  bool put(const PolygonFilling& filling) {
+    const std::vector<Quad> before = corners_of(patch_.quads());
+    std::vector<int> nodes(cavity_.ring.begin(), cavity_.ring.end());
+    for (std::size_t i = cavity_.ring.size(); i < filling.places.size(); ++i)
+      nodes.push_back(place(filling.places[i]));
+    std::vector<Quad> quads = filling.quads;
+    for (Quad& quad : quads) quad = with_numbers(quad, nodes);
+    const auto count = static_cast<double>(quads.size());
+    const bool done = !too_long(before, quads) && worst(quads) > std::min(worst(before), mendable_filling) &&
+                      mean_objective(quads) <
+                          mean_objective(before) + rise_per_cost * (cavity_.cost - filling.irregular) / count;
+    const std::vector<int> old = patch_.quads();
+    patch_.clear();
+    if (done && topology_.replace(old, quads)) {
+      spare_.clear();
+      drift_ += static_cast<int>(quads.size()) - static_cast<int>(old.size());
+      return true;
+    }
+    patch_.restore(old);
+    // Keep the new nodes for the next filling.
+    spare_.assign(nodes.begin() + static_cast<long>(cavity_.ring.size()), nodes.end());
+    return false;
+  }
+
+  /// A free node at the point of the surface nearest to the target.
+  int place(const Vector3& target) {
+    const auto nearest = [&](const Outline::List& nodes, int best) {
+      for (const int node : nodes)
+        if (best < 0 || (point(node) - target).squaredNorm() < (point(best) - target).squaredNorm())
+          best = node;
+      return best;
+    };
+    const int donor = nearest(cavity_.inside, nearest(cavity_.ring, -1));
+    int node = -1;
+    if (spare_.empty()) {
+      node = add_node_like(donor);
+    } else {
+      node = spare_.back();
+      spare_.pop_back();
+      mesh_.parameters[node] = mesh_.parameters[donor];
+    }
+    mesh_.put(node, mesh_.moved(surface_, node, target));
+    return node;
   }
 
   GrowingPatch patch_{topology_};
-  Cavity cavity_;  ///< of the patch, once traced
-  CavityFiller filler_;
+  Cavity cavity_;             ///< of the patch, once traced
   bool chooses_ = false;      ///< whether patches grow only to nodes that suit their corners
   int last_corners_ = 4;      ///< corners of the patch when it was last a polygon
   std::vector<int> tried_;    ///< irregular nodes to which the patch has grown
-  std::vector<int> met_;      ///< by node: number of the trace that met it last
   std::vector<int> reached_;  ///< by quad: number of the search that met it last
   int search_ = 0;
+  const MeshSurface& surface_;
+  const int first_count_ = topology_.size();
+  int drift_ = 0;                           ///< quads gained since the start
+  std::vector<int> spare_;                  ///< nodes that no quad uses
+  std::unordered_set<std::uint64_t> seen_;  ///< fingerprints of patches tried before
 };
 
 }  // namespace

@@ -7,10 +7,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <span>
 
-#include "mesher/quads/cavities.hpp"
 #include "mesher/quads/edited_mesh.hpp"
+#include "mesher/quads/improve.hpp"
 #include "mesher/quads/patch_templates.hpp"
 
 namespace quadrille {
@@ -94,46 +93,43 @@ class CleanUp : private EditedMesh {
     ++round_;
     const QuadTopology::Fan fan = topology_.fan(topology_.side_of(node));
     if (fan.quads > 12) return false;
-    std::array<int, 12> sides;
-    for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) sides[i] = at;
-    const auto quad_across = [&](int side) {
-      return topology_.twin(side) < 0 ? -1 : topology_.twin(side) >> 2;
-    };
+    std::array<int, 12> sides, quads;
+    for (int i = 0, at = fan.first; i < fan.quads; ++i, at = topology_.rotate(at)) {
+      sides[i] = at;
+      quads[i] = at >> 2;
+    }
 
     // The node's own ring.
     SmallPatch ring;
-    bool whole = true;
-    for (int i = 0; i < fan.quads; ++i) whole = ring.add(sides[i] >> 2) && whole;
-    if (whole && ring.count > 1 && try_patch(ring)) return true;
+    const bool whole = topology_.add_fan(fan.first, ring);
+    if (whole && ring.quads.size() > 1 && try_patch(ring)) return true;
     // Pairs of quads, then chains of three.
     for (int i = 0; i < fan.quads; ++i)
       for (int k = 0; k < 4; ++k) {
         SmallPatch pair;
-        pair.add(sides[i] >> 2);
-        if (quad_across(4 * (sides[i] >> 2) + k) == (sides[(i + 1) % fan.quads] >> 2))
-          continue;  // that pair is tried from there
-        if (pair.add(quad_across(4 * (sides[i] >> 2) + k)) && try_patch(pair)) return true;
+        pair.add(quads[i]);
+        const int beyond = topology_.beyond(4 * quads[i] + k);
+        if (beyond == quads[(i + 1) % fan.quads]) continue;  // that pair is tried from there
+        if (pair.add(beyond) && try_patch(pair)) return true;
       }
     for (int i = 0; i < fan.quads; ++i)
       for (int k = 0; k < 4; ++k) {
         SmallPatch pair;
-        pair.add(sides[i] >> 2);
-        if (!pair.add(quad_across(4 * (sides[i] >> 2) + k))) continue;
-        for (int member = 0; member < 2; ++member)
+        pair.add(quads[i]);
+        if (!pair.add(topology_.beyond(4 * quads[i] + k))) continue;
+        for (const int member : pair.quads)
           for (int j = 0; j < 4; ++j) {
             SmallPatch triple = pair;
-            if (triple.add(quad_across(4 * pair.quads[member] + j)) && triple.count == 3 && try_patch(triple))
+            if (triple.add(topology_.beyond(4 * member + j)) && triple.quads.size() == 3 && try_patch(triple))
               return true;
           }
       }
     // The node's ring with the ring of each other node of its quads.
     for (int i = 0; i < fan.quads && whole; ++i)
-      for (int step = 1; step <= 2; ++step) {
-        const Quad& q = topology_.quad(sides[i] >> 2);
-        const int other_side = topology_.side_at(sides[i] >> 2, q[((sides[i] & 3) + step) & 3]);
-        if (!topology_.closed(topology_.origin(other_side))) continue;
+      for (const int other : {QuadTopology::next(sides[i]), QuadTopology::opposite(sides[i])}) {
+        if (!topology_.closed(topology_.origin(other))) continue;
         SmallPatch both = ring;
-        if (topology_.add_fan(other_side, both) && try_patch(both)) return true;
+        if (topology_.add_fan(other, both) && try_patch(both)) return true;
       }
     return false;
   }
@@ -161,8 +157,8 @@ class CleanUp : private EditedMesh {
     // No gain unless two nodes are irregular. The sum counts a node once per quad, so it is an upper bound.
     double most = 0;
     std::uint64_t fingerprint = 0;  // equal for the same quads in any order, as long as they keep their nodes
-    for (int i = 0; i < patch.count; ++i) {
-      const QuadState& state = state_of(patch.quads[i]);
+    for (const int quad : patch.quads) {
+      const QuadState& state = state_of(quad);
       most += state.cost;
       fingerprint += state.print;
     }
@@ -179,15 +175,15 @@ class CleanUp : private EditedMesh {
     // Of two fillings with the same gain, prefer the one that brings back the first number of quads.
     const double drift = std::clamp(drift_cost * drift_ / topology_.size(), -resize_cost, resize_cost);
     for (int interior = 0; interior <= PatchTemplate::max_interior; ++interior) {
-      const int added = interior - outline.inside_count;
+      const int added = interior - outline.inside_count();
       costs.resize[interior] = resize_cost * std::abs(added);
       costs.drift[interior] = drift * added;
     }
     costs.limit = cost - min_gain;
-    const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
-    for (int i = 0; i < cheapest.count; ++i)
-      if (fill(patch, outline, *cheapest.fillings[i])) return true;
-    if (cheapest.count > 0) {
+    const CheapestFillings cheapest = cheapest_fillings(outline.length(), costs);
+    for (const PatchTemplate* filling : cheapest)
+      if (fill(patch, outline, *filling)) return true;
+    if (!cheapest.empty()) {
       // If the patch is met again from another node, it must count as blocked there too.
       blocked_ = true;
       slot = 0;
@@ -196,33 +192,32 @@ class CleanUp : private EditedMesh {
   }
 
   bool fill(const SmallPatch& patch, const Outline& outline, const PatchTemplate& filling) {
-    const std::span<const int> old(patch.quads.data(), patch.count);
-    std::array<Quad, SmallPatch::max_quads> replaced, quads;
-    std::transform(old.begin(), old.end(), replaced.begin(), [&](int quad) { return topology_.quad(quad); });
-    const std::span<const Quad> before(replaced.data(), patch.count);
+    const std::vector<Quad> before = corners_of(patch.span());
     const double floor = std::min(worst(before), mendable_patch);
     Filling filled = laid(outline, filling);
     if (!(filled.worst() > floor)) return false;
 
     // Move the nodes to the surface only now.
     std::array<SurfacePlace, PatchTemplate::max_interior> saved;
-    const int n = outline.length;
+    const int n = outline.length();
     int donor = filled.nodes[0];
     for (int i = 0; i < n; ++i)
       if (!mesh_.fixed[filled.nodes[i]]) donor = filled.nodes[i];
     for (int i = 0; i < filling.interior; ++i) {
-      const int node = i < outline.inside_count ? outline.inside[i] : add_node_like(donor);
+      int& node = filled.nodes[n + i];
+      if (node < 0) node = add_node_like(donor);
       saved[i] = mesh_.place_of(node);
-      filled.nodes[n + i] = node;
       mesh_.put(node, mesh_.moved(surface_, node, filled.x[n + i]));
       filled.x[n + i] = point(node);
     }
     doubtful_.resize(mesh_.mesh.points.size(), 0);
-    for (int k = 0; k < filling.quads; ++k)
-      for (int j = 0; j < 4; ++j) quads[k][j] = filled.nodes[filling.corners[k][j]];
-    const std::span<const Quad> after(quads.data(), filling.quads);
-    if (filled.worst() > floor && !too_long(before, after) && topology_.replace(old, after)) {
-      drift_ += filling.quads - patch.count;
+    std::vector<Quad> after;
+    for (int k = 0; k < filling.quads; ++k) {
+      const auto& [a, b, c, d] = filling.corners[k];
+      after.push_back({filled.nodes[a], filled.nodes[b], filled.nodes[c], filled.nodes[d]});
+    }
+    if (filled.worst() > floor && !too_long(before, after) && topology_.replace(patch.span(), after)) {
+      drift_ += static_cast<int>(after.size()) - static_cast<int>(before.size());
       for (int i = 0; i < n + filling.interior; ++i) push(filled.nodes[i]);
       return true;
     }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -37,6 +39,13 @@ EditedMesh::EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context)
     if (fans[i] == 1 && mesh_.boundary_angles[i] > 0) angles_[i] = mesh_.boundary_angles[i];
 }
 
+std::vector<QuadTopology::Quad> EditedMesh::corners_of(std::span<const int> quads) const {
+  std::vector<Quad> result;
+  result.reserve(quads.size());
+  for (const int quad : quads) result.push_back(topology_.quad(quad));
+  return result;
+}
+
 double EditedMesh::worst(std::span<const Quad> quads) const {
   double least = 1;
   for (const Quad& quad : quads) least = std::min(least, mesh_.quality(quad));
@@ -57,48 +66,48 @@ bool EditedMesh::too_long(std::span<const Quad> before, std::span<const Quad> qu
   return longest > std::max(most, max_over_mean * sum / (4 * static_cast<double>(before.size())));
 }
 
-bool EditedMesh::trace(const SmallPatch& patch, Outline& outline) const {
-  int start = -1, outer = 0;
-  for (int i = 0; i < patch.count; ++i)
-    for (int k = 0; k < 4; ++k) {
-      const int twin = topology_.twin(4 * patch.quads[i] + k);
-      if (twin >= 0 && patch.contains(twin >> 2)) continue;
-      start = 4 * patch.quads[i] + k;
-      ++outer;
-    }
-  if (start < 0 || outer > PatchTemplate::max_sides) return false;
+bool EditedMesh::trace(std::span<const int> quads, Outline& outline) {
+  traced_.resize(topology_.size(), 0);
+  met_.resize(node_count(), 0);
+  ++traces_;
+  for (const int quad : quads) traced_[quad] = traces_;
+  const auto is_outer = [&](int side) {
+    const int beyond = topology_.beyond(side);
+    return beyond < 0 || traced_[beyond] != traces_;
+  };
+  const auto is_new = [&](int node) { return std::exchange(met_[node], traces_) != traces_; };
+  int start = -1;
+  std::size_t outer = 0;
+  for (const int quad : quads)
+    for (int side = 4 * quad; side < 4 * quad + 4; ++side)
+      if (is_outer(side)) {
+        start = side;
+        ++outer;
+      }
+  if (start < 0) return false;
   int side = start;
   do {
-    if (outline.length == outer) return false;
-    outline.sides[outline.length] = side;
-    outline.ring[outline.length++] = topology_.origin(side);
-    int& uses = outline.uses[outline.length == outer ? 0 : outline.length];  // at the next node
-    uses = 1;
-    side = QuadTopology::next(side);
-    for (int twin = topology_.twin(side); twin >= 0 && patch.contains(twin >> 2);
-         twin = topology_.twin(side)) {
-      side = QuadTopology::next(twin);
-      ++uses;
-    }
+    if (!is_new(topology_.origin(side))) return false;
+    outline.ring.push_back(topology_.origin(side));
+    outline.sides.push_back(side);
+    int& uses = outline.uses.emplace_back(1);  // at the next node
+    for (side = QuadTopology::next(side); !is_outer(side); ++uses)
+      side = QuadTopology::next(topology_.twin(side));
   } while (side != start);
-  if (outline.length != outer) return false;
-  const auto ring_end = outline.ring.begin() + outline.length;
-  for (auto at = outline.ring.begin(); at != ring_end; ++at)
-    if (std::find(at + 1, ring_end, *at) != ring_end) return false;
-  for (int i = 0; i < patch.count; ++i)
-    for (const int node : topology_.quad(patch.quads[i])) {
-      if (std::find(outline.ring.begin(), ring_end, node) != ring_end) continue;
-      const auto inside_end = outline.inside.begin() + outline.inside_count;
-      if (std::find(outline.inside.begin(), inside_end, node) != inside_end) continue;
-      if (outline.inside_count == 4 || !inner(node)) return false;
-      outline.inside[outline.inside_count++] = node;
+  if (outline.ring.size() != outer) return false;
+  std::rotate(outline.uses.begin(), outline.uses.end() - 1, outline.uses.end());
+  for (const int quad : quads)
+    for (const int node : topology_.quad(quad)) {
+      if (!is_new(node)) continue;
+      if (!inner(node)) return false;
+      outline.inside.push_back(node);
     }
-  return patch.count == outline.length / 2 - 1 + outline.inside_count;
+  return quads.size() == outer / 2 - 1 + outline.inside.size();
 }
 
 double EditedMesh::find_costs(const Outline& outline, FillingCosts& costs) const {
   double cost = 0;
-  for (int i = 0; i < outline.length; ++i) {
+  for (int i = 0; i < outline.length(); ++i) {
     const int node = outline.ring[i], inside = outline.uses[i];
     const int beyond = topology_.valence(outline.sides[i]) - inside;
     const bool is_inner = inner(node);
@@ -106,14 +115,13 @@ double EditedMesh::find_costs(const Outline& outline, FillingCosts& costs) const
       costs.uses[i][uses] = is_inner ? inner_cost(beyond + uses) : node_cost(node, beyond + uses);
     cost += costs.uses[i][std::min(inside, PatchTemplate::max_uses)];
   }
-  for (int i = 0; i < outline.inside_count; ++i)
-    cost += node_cost(outline.inside[i], topology_.valence(topology_.side_of(outline.inside[i])));
+  for (const int node : outline.inside) cost += node_cost(node, topology_.valence(topology_.side_of(node)));
   return cost;
 }
 
 Filling EditedMesh::laid(const Outline& outline, const PatchTemplate& filling) const {
   Filling result{filling, {}, {}, Vector3::Zero()};
-  const int n = outline.length;
+  const int n = outline.length();
   auto& x = result.x;
   Vector3 center = Vector3::Zero();
   for (int i = 0; i < n; ++i) {
@@ -122,7 +130,10 @@ Filling EditedMesh::laid(const Outline& outline, const PatchTemplate& filling) c
     center += x[i] / n;
     result.normal += mesh_.normals[outline.ring[i]];
   }
-  for (int i = 0; i < filling.interior; ++i) x[n + i] = center;
+  for (int i = 0; i < filling.interior; ++i) {
+    result.nodes[n + i] = i < outline.inside_count() ? outline.inside[i] : -1;
+    x[n + i] = center;
+  }
   for (int sweep = 0; sweep < 6; ++sweep)
     for (int i = n; i < n + filling.interior; ++i) {
       Vector3 sum = Vector3::Zero();
@@ -173,12 +184,10 @@ std::vector<int> EditedMesh::write_back() {
     if (!mesh_.fixed[node] && (on_triangle_[node] || topology_.side_of(node) >= 0)) keep(node);
   for (int quad = 0; quad < topology_.size(); ++quad) {
     check();
-    if (!topology_.alive(quad)) continue;
-    const Quad& q = topology_.quad(quad);
-    result.mesh.quads.push_back({number[q[0]], number[q[1]], number[q[2]], number[q[3]]});
+    if (topology_.alive(quad)) result.mesh.quads.push_back(with_numbers(topology_.quad(quad), number));
   }
-  for (auto& triangle : mesh_.mesh.triangles)
-    result.mesh.triangles.push_back({number[triangle[0]], number[triangle[1]], number[triangle[2]]});
+  for (const auto& triangle : mesh_.mesh.triangles)
+    result.mesh.triangles.push_back(with_numbers(triangle, number));
   context_.check();
   mesh_ = std::move(result);
   return kept;

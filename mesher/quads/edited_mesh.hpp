@@ -8,6 +8,9 @@
 #include <span>
 #include <vector>
 
+#include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
+
 #include "mesher/quads/improve.hpp"
 #include "mesher/quads/patch_templates.hpp"
 #include "mesher/quads/quad_topology.hpp"
@@ -15,30 +18,30 @@
 namespace quadrille {
 
 /// A patch of quads as a polygon with nodes inside.
-struct Outline {
-  std::array<int, PatchTemplate::max_sides> ring;  ///< nodes, counter-clockwise
-  std::array<int, PatchTemplate::max_sides>
-      sides;  ///< side of the patch from each node of the ring to the next
-  std::array<int, PatchTemplate::max_sides> uses;  ///< quads of the patch at each node of the ring
-  int length = 0;
-  std::array<int, 4> inside;
-  int inside_count = 0;
+struct Outline {  // NOLINT(bugprone-exception-escape): moves may allocate
+  using List = boost::container::small_vector<int, PatchTemplate::max_sides>;
+
+  List ring;    ///< nodes, counter-clockwise
+  List sides;   ///< side of the patch from each node of the ring to the next
+  List uses;    ///< quads of the patch at each node of the ring
+  List inside;  ///< nodes
+
+  int length() const { return static_cast<int>(ring.size()); }
+  int inside_count() const { return static_cast<int>(inside.size()); }
 };
 
 /// Quads that are tried as one patch.
 struct SmallPatch {
-  static constexpr int max_quads = 8;
-  std::array<int, max_quads> quads;
-  int count = 0;
+  static constexpr std::size_t max_quads = 8, max_inside = 4;  ///< quads, and nodes inside
+  boost::container::static_vector<int, max_quads> quads;
 
-  bool contains(int quad) const {
-    return std::find(quads.begin(), quads.begin() + count, quad) != quads.begin() + count;
-  }
+  std::span<const int> span() const { return {quads.data(), quads.size()}; }
+  bool contains(int quad) const { return std::find(quads.begin(), quads.end(), quad) != quads.end(); }
   bool add(int quad) {
     if (quad < 0) return false;
     if (contains(quad)) return true;
-    if (count == max_quads) return false;
-    quads[count++] = quad;
+    if (quads.size() == max_quads) return false;
+    quads.push_back(quad);
     return true;
   }
 };
@@ -48,7 +51,7 @@ struct Filling {
   static constexpr int max_corners = PatchTemplate::max_sides + PatchTemplate::max_interior;
   const PatchTemplate& filling;
   std::array<Vector3, max_corners> x;
-  std::array<int, max_corners> nodes;  ///< laid() sets only those on the outline
+  std::array<int, max_corners> nodes;  ///< of the mesh; -1 = new
   Vector3 normal;                      ///< the sum of the normals at the outline's nodes
   /// The least scaled Jacobian, negative where a quad is folded.
   double worst() const;
@@ -61,15 +64,14 @@ class EditedMesh {
 
   EditedMesh(SurfaceMesh& mesh, const ExecutionContext& context);
 
-  SurfaceMesh& mesh() { return mesh_; }
   QuadTopology& topology() { return topology_; }
-  const QuadTopology& topology() const { return topology_; }
   int node_count() const { return static_cast<int>(mesh_.mesh.points.size()); }
   const std::vector<Vector3>& points() const { return mesh_.mesh.points; }
   const Vector3& point(int node) const { return mesh_.mesh.points[node]; }
   const Vector3& normal(int node) const { return mesh_.normals[node]; }
   /// Whether the node may move and its quads close around it.
   bool inner(int node) const { return topology_.closed(node) && may_move(node); }
+  std::vector<Quad> corners_of(std::span<const int> quads) const;
   /// \return the least scaled Jacobian; negative where a quad is folded.
   double worst(std::span<const Quad> quads) const;
   /// Whether a new side is longer than every side before, and far longer than their mean.
@@ -89,9 +91,14 @@ class EditedMesh {
     const double flat = std::max(0.0, mean - 130) / 15, sharp = std::max(0.0, 40 - mean) / 20;
     return (quads - wanted) * (quads - wanted) + 3 * flat * flat + 3 * sharp * sharp;
   }
-  /// Finds the polygon around a patch. False if the patch is not a disc, its outline is too long, or nodes
-  /// inside it must stay.
-  bool trace(const SmallPatch& patch, Outline& outline) const;
+  /// Finds the polygon around a patch. False if the patch is not a disc, or nodes inside it must stay.
+  /// \param outline empty
+  bool trace(std::span<const int> quads, Outline& outline);
+  /// The same; also false if the outline is too long, or has too many nodes inside.
+  bool trace(const SmallPatch& patch, Outline& outline) {
+    return trace(patch.span(), outline) && outline.ring.size() <= PatchTemplate::max_sides &&
+           outline.inside.size() <= SmallPatch::max_inside;
+  }
   /// Sets `costs.uses`, the valence costs around a patch with any filling. \return the present valence cost.
   double find_costs(const Outline& outline, FillingCosts& costs) const;
   /// Lays a template into an outline, with its inner nodes at the mean of their neighbors.
@@ -111,6 +118,11 @@ class EditedMesh {
   /// (nodes) radians: the angle that the quads of a node fill, for nodes that are not inner; the mean if it
   /// has several fans. Where it has one, SurfaceMesh::boundary_angles takes precedence.
   std::vector<double> angles_;
+
+ private:
+  int traces_ = 0;           ///< calls of trace()
+  std::vector<int> traced_;  ///< by quad: the last trace of a patch that holds it
+  std::vector<int> met_;     ///< by node: the last trace that met it
 };
 
 }  // namespace quadrille

@@ -84,4 +84,29 @@ void clean_up(SurfaceMesh& surface_mesh, const MeshSurface& surface, const Impro
 void smooth(SurfaceMesh& surface_mesh, const MeshSurface& surface, const ImproveOptions& options,
             ExecutionContext& context);
 
+/// Grows patches around irregular nodes. A patch takes in the nearest irregular node outside, again and
+/// again, until it has two to six corners and a filling with fewer irregular nodes exists for these
+/// (polygon_filling.hpp). Where that fails, a second attempt takes in only nodes that bring the patch nearer
+/// to four corners. The patch is refilled if its quads then lie nearer to the industry criteria on average,
+/// or only a little farther away for each irregular node saved. The mesh around the patch stays: each node of
+/// the outline keeps its number of quads. Only boundary nodes whose quads are all inside the patch get as
+/// many quads as their angle requires.
+///
+/// Time: linear in the irregular nodes; a patch has at most 150 quads. Based on: Verma & Tautges, Jaal:
+/// engineering a high quality all-quadrilateral mesh generator (2011), for convex patches around irregular
+/// nodes.
+///
+/// \return the number of refilled patches.
+int remesh_cavities(SurfaceMesh& mesh, const MeshSurface& surface, const ExecutionContext& context);
+
+/// Moves the free nodes of inverted quads in space, where no place on the surface makes them valid: to the
+/// mean of their neighbors, to where a quad becomes a parallelogram, then by a compass search, always to the
+/// place where the worst quad around the node is best.
+/// \param fixed (n) 1 = stays where it is
+/// \param reach the largest distance that a node moves
+/// \return (n) 1 = was moved. Quads may stay inverted if too many of their nodes are fixed. Linear in the
+/// mesh for each of at most 20 rounds.
+std::vector<char> unfold_in_space(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
+                                  const ExecutionContext& context);
+
 }  // namespace quadrille

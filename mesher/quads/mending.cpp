@@ -12,6 +12,7 @@
 #include <span>
 #include <utility>
 
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/edited_mesh.hpp"
 
@@ -160,7 +161,7 @@ struct Patches {
   std::set<std::vector<int>> met;
 
   bool add(const SmallPatch& patch) {
-    std::vector<int> key(patch.quads.begin(), patch.quads.begin() + patch.count);
+    std::vector<int> key(patch.quads.begin(), patch.quads.end());
     std::sort(key.begin(), key.end());
     if (!met.insert(key).second) return false;
     list.push_back(patch);
@@ -169,13 +170,13 @@ struct Patches {
 };
 
 /// Adds the patch, and all patches up to a size that grow from it by one neighbor after the other.
-void grow(const QuadTopology& topology, const SmallPatch& patch, int size, Patches& patches) {
-  if (!patches.add(patch) || patch.count == size) return;
-  for (int i = 0; i < patch.count; ++i)
-    for (int k = 0; k < 4; ++k) {
-      const int twin = topology.twin(4 * patch.quads[i] + k);
+void grow(const QuadTopology& topology, const SmallPatch& patch, std::size_t size, Patches& patches) {
+  if (!patches.add(patch) || patch.quads.size() == size) return;
+  for (const int quad : patch.quads)
+    for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
       SmallPatch more = patch;
-      if (twin >= 0 && !patch.contains(twin >> 2) && more.add(twin >> 2)) grow(topology, more, size, patches);
+      const int beyond = topology.beyond(side);
+      if (!patch.contains(beyond) && more.add(beyond)) grow(topology, more, size, patches);
     }
 }
 
@@ -185,14 +186,13 @@ std::vector<SmallPatch> patches_of(const QuadTopology& topology, int quad) {
   SmallPatch one;
   one.add(quad);
   grow(topology, one, 3, patches);
-  const Quad& q = topology.quad(quad);
-  for (int k = 0; k < 4; ++k) {
+  for (int side = 4 * quad; side < 4 * quad + 4; ++side) {
     SmallPatch ring = one;
-    if (!topology.add_fan(topology.side_at(quad, q[k]), ring)) continue;
+    if (!topology.add_fan(side, ring)) continue;
     patches.add(ring);
-    for (const int other : {q[(k + 1) & 3], q[(k + 2) & 3]}) {
+    for (const int other : {QuadTopology::next(side), QuadTopology::opposite(side)}) {
       SmallPatch both = ring;
-      if (topology.add_fan(topology.side_at(quad, other), both)) patches.add(both);
+      if (topology.add_fan(other, both)) patches.add(both);
     }
   }
   return std::move(patches.list);
@@ -200,31 +200,8 @@ std::vector<SmallPatch> patches_of(const QuadTopology& topology, int quad) {
 
 // ---- their fillings ----
 
-/// The objectives of the quads of a mesh, measured on demand.
-class Objectives {
- public:
-  explicit Objectives(const EditedMesh& mesh) : mesh_(mesh) {}
-
-  const QuadObjective& operator()(int quad) {
-    const QuadTopology& topology = mesh_.topology();
-    if (known_.size() < static_cast<std::size_t>(topology.size())) known_.resize(topology.size());
-    std::optional<QuadObjective>& known = known_[quad];
-    if (!known) known = measure_objective(mesh_.points(), topology.quad(quad));
-    return *known;
-  }
-
-  /// To be called when a quad or a node of it has changed.
-  void forget(int quad) {
-    if (quad < static_cast<int>(known_.size())) known_[quad].reset();
-  }
-
- private:
-  const EditedMesh& mesh_;
-  std::vector<std::optional<QuadObjective>> known_;
-};
-
 /// One way to fill one patch.
-struct Candidate {
+struct Candidate {  // NOLINT(bugprone-exception-escape): as Outline
   SmallPatch patch;
   Outline outline;
   const PatchTemplate* filling;
@@ -243,104 +220,9 @@ struct Attempt {
 
 /// Whether a filling has the same uses, and as many nodes inside, as the patch has already.
 bool is_there(const Outline& outline, const PatchTemplate& filling) {
-  return filling.interior == outline.inside_count &&
-         std::equal(outline.uses.begin(), outline.uses.begin() + outline.length, filling.uses.begin());
+  return filling.interior == outline.inside_count() &&
+         std::equal(outline.uses.begin(), outline.uses.end(), filling.uses.begin());
 }
-
-/// Finds fillings of patches and tries them apart from the mesh.
-class PatchFillings {
- public:
-  PatchFillings(const EditedMesh& mesh, Objectives& objectives) : mesh_(mesh), objectives_(objectives) {}
-
-  /// Adds the fillings of a patch that are worth an attempt.
-  void find(const SmallPatch& patch, std::vector<Candidate>& candidates) const {
-    Candidate candidate{patch, {}, nullptr, 0, 0, 0};
-    Outline& outline = candidate.outline;
-    if (!mesh_.trace(patch, outline)) return;
-    FillingCosts costs;
-    const double cost = mesh_.find_costs(outline, costs);
-    for (int i = 0; i < patch.count; ++i)
-      candidate.before += std::min(largest_objective, objectives_(patch.quads[i]).value);
-    costs.resize.fill(0);
-    costs.drift.fill(0);
-    costs.limit = cost + slack;
-    const CheapestFillings cheapest = cheapest_fillings(outline.length, costs);
-    for (int i = 0; i < cheapest.count; ++i) {
-      candidate.filling = cheapest.fillings[i];
-      if (is_there(outline, *candidate.filling)) continue;
-      candidate.cost = candidate.filling->interior_cost - cost;
-      for (int k = 0; k < outline.length; ++k) candidate.cost += costs.uses[k][candidate.filling->uses[k]];
-      Trial trial;
-      lay(candidate, trial);
-      candidate.quick = trial.sum() - candidate.before;
-      if (candidate.quick + per_cost * candidate.cost > hopeless) continue;
-      candidates.push_back(candidate);
-    }
-  }
-
-  /// Moves the nodes of a filling. \return whether it gains more than the best one so far.
-  bool attempt(Attempt& now, double best) const {
-    const Candidate& candidate = *now.candidate;
-    Trial& trial = now.trial;
-    lay(candidate, trial);
-    for (int i = 0; i < candidate.patch.count; ++i)
-      trial.floor = std::min(trial.floor, objectives_(candidate.patch.quads[i]).least_sine);
-    now.before = candidate.before - trial.sum();
-    if (!surround(candidate.patch, candidate.outline, trial)) return false;
-    now.before += trial.sum();
-    now.weigh();
-    trial.flatten();
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      const double last = now.gain;
-      trial.relax();
-      now.weigh();
-      if (now.gain + follow * (now.gain - last) <= best) return false;
-    }
-    return now.gain > best && trial.sound();
-  }
-
- private:
-  /// Puts the filling into a trial, with its inner nodes at the mean of their neighbors.
-  void lay(const Candidate& candidate, Trial& trial) const {
-    const Outline& outline = candidate.outline;
-    const Filling filled = mesh_.laid(outline, *candidate.filling);
-    trial.set_up(filled.normal);
-    for (int i = 0; i < outline.length; ++i)
-      trial.add_point(outline.ring[i], filled.x[i], mesh_.inner(outline.ring[i]));
-    for (int i = 0; i < filled.filling.interior; ++i)
-      trial.add_point(i < outline.inside_count ? outline.inside[i] : -1, filled.x[outline.length + i], true);
-    for (int k = 0; k < filled.filling.quads; ++k) {
-      const auto& c = filled.filling.corners[k];
-      trial.quads.push_back({c[0], c[1], c[2], c[3]});
-    }
-    trial.measure();
-  }
-
-  /// Adds the quads next to the patch; false if there are too many.
-  bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) const {
-    boost::container::static_vector<int, Trial::max_quads> met;
-    const auto add = [&](int quad) {
-      if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) return true;
-      if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points) return false;
-      met.push_back(quad);
-      Quad local;
-      for (int j = 0; j < 4; ++j) {
-        const int node = mesh_.topology().quad(quad)[j];
-        const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
-        local[j] = static_cast<int>(at - trial.nodes.begin());
-        if (at == trial.nodes.end()) trial.add_point(node, mesh_.point(node), false);
-      }
-      trial.add_old(local, objectives_(quad));
-      return true;
-    };
-    return std::all_of(outline.ring.begin(), outline.ring.begin() + outline.length, [&](int node) {
-      return mesh_.topology().all_around(mesh_.topology().side_of(node), add);
-    });
-  }
-
-  const EditedMesh& mesh_;
-  Objectives& objectives_;
-};
 
 // ---- the best of them ----
 
@@ -361,7 +243,7 @@ class Mending : private EditedMesh {
       int done = 0;
       for (const auto& [value, quad] : worst_first(pass > 0)) {
         context_.check();
-        if (topology_.alive(quad) && objectives_(quad).value > poor_) done += mend(quad);
+        if (topology_.alive(quad) && objective(quad).value > poor_) done += mend(quad);
       }
       count += done;
       if (done == 0) break;
@@ -372,6 +254,18 @@ class Mending : private EditedMesh {
   }
 
  private:
+  const QuadObjective& objective(int quad) {
+    if (objectives_.size() < static_cast<std::size_t>(topology_.size())) objectives_.resize(topology_.size());
+    std::optional<QuadObjective>& known = objectives_[quad];
+    if (!known) known = measure_objective(points(), topology_.quad(quad));
+    return *known;
+  }
+
+  /// To be called when a quad or a node of it has changed.
+  void forget(int quad) {
+    if (quad < static_cast<int>(objectives_.size())) objectives_[quad].reset();
+  }
+
   /// \param again only the quads with a node marked in changed_
   std::vector<std::pair<double, int>> worst_first(bool again) {
     std::vector<std::pair<double, int>> bad;
@@ -379,16 +273,97 @@ class Mending : private EditedMesh {
       if (!topology_.alive(quad)) continue;
       const Quad& q = topology_.quad(quad);
       if (again && std::none_of(q.begin(), q.end(), [this](int node) { return changed_[node]; })) continue;
-      const double value = objectives_(quad).value;
+      const double value = objective(quad).value;
       if (value > poor_) bad.emplace_back(-value, quad);
     }
     std::sort(bad.begin(), bad.end());
     return bad;
   }
 
+  /// Adds the fillings of a patch that are worth an attempt.
+  void find_fillings(const SmallPatch& patch, std::vector<Candidate>& candidates) {
+    Candidate candidate{patch, {}, nullptr, 0, 0, 0};
+    Outline& outline = candidate.outline;
+    if (!trace(patch, outline)) return;
+    FillingCosts costs;
+    const double cost = find_costs(outline, costs);
+    for (const int quad : patch.quads) candidate.before += std::min(largest_objective, objective(quad).value);
+    costs.resize.fill(0);
+    costs.drift.fill(0);
+    costs.limit = cost + slack;
+    for (const PatchTemplate* filling : cheapest_fillings(outline.length(), costs)) {
+      candidate.filling = filling;
+      if (is_there(outline, *filling)) continue;
+      candidate.cost = filling->interior_cost - cost;
+      for (int k = 0; k < outline.length(); ++k) candidate.cost += costs.uses[k][filling->uses[k]];
+      Trial trial;
+      lay(candidate, trial);
+      candidate.quick = trial.sum() - candidate.before;
+      if (candidate.quick + per_cost * candidate.cost > hopeless) continue;
+      candidates.push_back(candidate);
+    }
+  }
+
+  /// Moves the nodes of a filling. \return whether it gains more than the best one so far.
+  bool attempt(Attempt& now, double best) {
+    const Candidate& candidate = *now.candidate;
+    Trial& trial = now.trial;
+    lay(candidate, trial);
+    for (const int quad : candidate.patch.quads)
+      trial.floor = std::min(trial.floor, objective(quad).least_sine);
+    now.before = candidate.before - trial.sum();
+    if (!surround(candidate.patch, candidate.outline, trial)) return false;
+    now.before += trial.sum();
+    now.weigh();
+    trial.flatten();
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      const double last = now.gain;
+      trial.relax();
+      now.weigh();
+      if (now.gain + follow * (now.gain - last) <= best) return false;
+    }
+    return now.gain > best && trial.sound();
+  }
+
+  /// Puts the filling into a trial, with its inner nodes at the mean of their neighbors.
+  void lay(const Candidate& candidate, Trial& trial) const {
+    const Filling filled = laid(candidate.outline, *candidate.filling);
+    trial.set_up(filled.normal);
+    const int length = candidate.outline.length();
+    for (int i = 0; i < length + filled.filling.interior; ++i)
+      trial.add_point(filled.nodes[i], filled.x[i], i >= length || inner(filled.nodes[i]));
+    for (int k = 0; k < filled.filling.quads; ++k) {
+      const auto& c = filled.filling.corners[k];
+      trial.quads.push_back({c[0], c[1], c[2], c[3]});
+    }
+    trial.measure();
+  }
+
+  /// Adds the quads next to the patch; false if there are too many.
+  bool surround(const SmallPatch& patch, const Outline& outline, Trial& trial) {
+    boost::container::static_vector<int, Trial::max_quads> met;
+    const auto add = [&](int side) {
+      const int quad = side >> 2;
+      if (patch.contains(quad) || std::find(met.begin(), met.end(), quad) != met.end()) return true;
+      if (trial.quads.size() == Trial::max_quads || trial.points.size() + 4 > Trial::max_points) return false;
+      met.push_back(quad);
+      Quad local;
+      for (int j = 0; j < 4; ++j) {
+        const int node = topology_.quad(quad)[j];
+        const auto at = std::find(trial.nodes.begin(), trial.nodes.end(), node);
+        local[j] = static_cast<int>(at - trial.nodes.begin());
+        if (at == trial.nodes.end()) trial.add_point(node, point(node), false);
+      }
+      trial.add_old(local, objective(quad));
+      return true;
+    };
+    return std::all_of(outline.ring.begin(), outline.ring.end(),
+                       [&](int node) { return topology_.all_around(topology_.side_of(node), add); });
+  }
+
   bool mend(int quad) {
     std::vector<Candidate> candidates;
-    for (const SmallPatch& patch : patches_of(topology_, quad)) fillings_.find(patch, candidates);
+    for (const SmallPatch& patch : patches_of(topology_, quad)) find_fillings(patch, candidates);
     std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.quick + per_cost * a.cost < b.quick + per_cost * b.cost;
     });
@@ -398,7 +373,7 @@ class Mending : private EditedMesh {
     double best = least_gain;
     for (const Candidate& candidate : candidates) {
       Attempt now{&candidate, {}};
-      if (!fillings_.attempt(now, best)) continue;
+      if (!attempt(now, best)) continue;
       best = now.gain;
       attempts.push_back(std::move(now));
     }
@@ -413,7 +388,7 @@ class Mending : private EditedMesh {
     const Candidate& candidate = *now.candidate;
     Trial& trial = now.trial;
     int donor = trial.nodes[0];
-    for (int i = 0; i < candidate.outline.length; ++i)
+    for (int i = 0; i < candidate.outline.length(); ++i)
       if (inner(trial.nodes[i])) donor = trial.nodes[i];
     std::vector<SurfacePlace> places;  // (points)
     for (std::size_t i = 0; i < trial.nodes.size(); ++i) {
@@ -432,12 +407,12 @@ class Mending : private EditedMesh {
       changed_[node] = 1;
       if (!trial.movable[i]) continue;
       mesh_.put(node, places[i]);
-      topology_.all_around(topology_.side_of(node), [&](int quad) {
-        objectives_.forget(quad);
+      topology_.all_around(topology_.side_of(node), [&](int side) {
+        forget(side >> 2);
         return true;
       });
     }
-    for (int i = 0; i < candidate.patch.count; ++i) objectives_.forget(candidate.patch.quads[i]);
+    for (const int quad : candidate.patch.quads) forget(quad);
     return true;
   }
 
@@ -445,8 +420,8 @@ class Mending : private EditedMesh {
   bool turns_too_much(const Candidate& candidate, const Trial& trial,
                       const std::vector<SurfacePlace>& places) const {
     double least = least_turn_cosine_;
-    for (int i = 0; i < candidate.patch.count; ++i)
-      least = std::min(least, turn_cosine(topology_.quad(candidate.patch.quads[i]), mesh_.normals));
+    for (const int quad : candidate.patch.quads)
+      least = std::min(least, turn_cosine(topology_.quad(quad), mesh_.normals));
     std::vector<Vector3> normals;
     normals.reserve(places.size());
     for (const SurfacePlace& place : places) normals.push_back(place.normal);
@@ -461,17 +436,14 @@ class Mending : private EditedMesh {
       changed_.push_back(0);
     }
     std::vector<Quad> quads(trial.quads.begin(), trial.quads.begin() + candidate.filling->quads);
-    for (Quad& quad : quads)
-      for (int& node : quad) node = trial.nodes[node];
-    const std::span<const int> old(candidate.patch.quads.data(), candidate.patch.count);
-    return topology_.replace(old, quads);
+    for (Quad& quad : quads) quad = with_numbers(quad, trial.nodes);
+    return topology_.replace(candidate.patch.span(), quads);
   }
 
   const MeshSurface& surface_;
   double poor_, least_turn_cosine_;
-  std::vector<char> changed_;  ///< (nodes) 1 = of a trial that was carried out
-  Objectives objectives_{*this};
-  PatchFillings fillings_{*this, objectives_};
+  std::vector<char> changed_;                             ///< (nodes) 1 = of a trial that was carried out
+  std::vector<std::optional<QuadObjective>> objectives_;  ///< (quads) measured on demand
 };
 
 }  // namespace

@@ -3,12 +3,11 @@
 
 #include "mesher/quads/patch_templates.hpp"
 
-#include <boost/container/static_vector.hpp>
-
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace quadrille {
 namespace {
@@ -66,24 +65,20 @@ class Enumeration {
     const int mark = next_node_;
     const int c = i < 0 ? next_node_++ : ring[i];
     const int d = j < 0 ? next_node_++ : ring[j];
+    // Each part runs along the ring to the next corner that lies on it, and back over the new ones between.
     Parts parts;
-    const auto arc = [&](int from, int to) {
-      Ring part;
+    Ring fresh;
+    int from = 1;
+    for (const auto& [to, corner] : {std::pair(i, c), std::pair(j, d), std::pair(n, 0)}) {
+      if (to < 0) {
+        fresh.push_back(static_cast<std::int8_t>(corner));
+        continue;
+      }
+      Ring& part = parts.emplace_back();
       for (int k = from; k <= to; ++k) part.push_back(ring[k % n]);
-      return part;
-    };
-    if (i >= 0 && j >= 0) {
-      parts = {arc(1, i), arc(i, j), arc(j, n)};
-    } else if (i >= 0) {
-      parts = {arc(1, i), arc(i, n)};
-      parts.back().push_back(d);
-    } else if (j >= 0) {
-      parts = {arc(1, j), arc(j, n)};
-      parts.front().push_back(c);
-    } else {
-      parts = {arc(1, n)};
-      parts.back().push_back(d);
-      parts.back().push_back(c);
+      part.insert(part.end(), fresh.rbegin(), fresh.rend());
+      fresh.clear();
+      from = to;
     }
     bool even = true;
     for (const Ring& part : parts) even = even && part.size() % 2 == 0;
@@ -176,27 +171,6 @@ class FillingTrees {
     int any;         ///< one of its fillings
     int begin, end;  ///< range of its branches
   };
-  /// The cheapest fillings found so far, by cost, then by number.
-  struct Best {
-    struct Found {
-      double cost;
-      int filling;
-    };
-    std::array<Found, CheapestFillings::max_count> found;
-    int count = 0;
-
-    bool full() const { return count == CheapestFillings::max_count; }
-    void add(double cost, int filling) {
-      const auto before = [&](const Found& other) {
-        return cost < other.cost || (cost == other.cost && filling < other.filling);
-      };
-      if (full() && !before(found.back())) return;
-      int at = full() ? count - 1 : count++;
-      for (; at > 0 && before(found[at - 1]); --at) found[at] = found[at - 1];
-      found[at] = {cost, filling};
-    }
-  };
-
   void grow(int node, int first, int last) {
     if (node == sides_) return;
     while (first < last) {
@@ -225,7 +199,8 @@ CheapestFillings FillingTrees::cheapest(const FillingCosts& costs) const {
   for (int i = sides_ - 1; i >= 0; --i)
     rest[i] = rest[i + 1] + *std::min_element(costs.uses[i].begin() + 1, costs.uses[i].end());
   constexpr double rounding = 1e-9;
-  Best best;
+  constexpr std::size_t max_count = CheapestFillings::static_capacity;
+  boost::container::static_vector<std::pair<double, int>, max_count + 1> best;  // by cost, then by number
   std::array<double, PatchTemplate::max_sides + 1> sums;
   for (const Tree& tree : trees_) {
     const PatchTemplate& any = fillings_[tree.any];
@@ -234,19 +209,22 @@ CheapestFillings FillingTrees::cheapest(const FillingCosts& costs) const {
       const Branch& branch = branches_[k];
       const int after = branch.node + 1;
       const double sum = sums[after] = sums[branch.node] + costs.uses[branch.node][branch.uses];
-      const double most = best.full() ? best.found.back().cost : costs.limit;
+      const double most = best.size() == max_count ? best.back().first : costs.limit;
       if (sum + rest[after] > most + rounding) {
         k = branch.past;
         continue;
       }
       ++k;
       if (after < sides_ || sum > costs.limit) continue;
-      for (int i = branch.first; i < branch.last; ++i) best.add(sum, order_[i]);
+      for (int i = branch.first; i < branch.last; ++i) {
+        const std::pair found(sum, order_[i]);
+        best.insert(std::upper_bound(best.begin(), best.end(), found), found);
+        if (best.size() > max_count) best.pop_back();
+      }
     }
   }
   CheapestFillings result;
-  for (; result.count < best.count; ++result.count)
-    result.fillings[result.count] = &fillings_[best.found[result.count].filling];
+  for (const auto& [cost, filling] : best) result.push_back(&fillings_[filling]);
   return result;
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <boost/container/static_vector.hpp>
+
 namespace quadrille {
 
 /// One way to fill a polygon with quads.
@@ -35,11 +37,7 @@ struct FillingCosts {
 };
 
 /// Fillings, the cheapest first. Fillings of equal cost are in the order of patch_templates().
-struct CheapestFillings {
-  static constexpr int max_count = 4;
-  std::array<const PatchTemplate*, max_count> fillings;
-  int count = 0;
-};
+using CheapestFillings = boost::container::static_vector<const PatchTemplate*, 4>;
 
 /// The fillings that cost least, at most four. The search tree branches by the uses at one node of the
 /// polygon after the other; branches that already cost too much are skipped.

@@ -162,17 +162,17 @@ class PolygonCutter {
 
   PolygonFilling fill(const Cut& cut) const {
     Filler filler(places_);
-    const Chain &a = sides_[cut.first], &b = sides_[cut.second];
-    const Chain forth = filler.row(a[cut.from], b[cut.to], cut.segments);
-    std::vector<Chain> left{Chain(a.begin() + cut.from, a.end())}, right{Chain(b.begin() + cut.to, b.end())};
-    for (int i = (cut.first + 1) % count_; i != cut.second; i = (i + 1) % count_) left.push_back(sides_[i]);
-    left.emplace_back(b.begin(), b.begin() + cut.to + 1);
-    left.emplace_back(forth.rbegin(), forth.rend());
-    for (int i = (cut.second + 1) % count_; i != cut.first; i = (i + 1) % count_) right.push_back(sides_[i]);
-    right.emplace_back(a.begin(), a.begin() + cut.from + 1);
-    right.push_back(forth);
-    filler.fill(left);
-    filler.fill(right);
+    const Chain forth = filler.row(sides_[cut.first][cut.from], sides_[cut.second][cut.to], cut.segments);
+    const auto fill = [&](int first, int from, int second, int to, Chain back) {
+      const Chain &a = sides_[first], &b = sides_[second];
+      std::vector<Chain> part{Chain(a.begin() + from, a.end())};
+      for (int i = (first + 1) % count_; i != second; i = (i + 1) % count_) part.push_back(sides_[i]);
+      part.emplace_back(b.begin(), b.begin() + to + 1);
+      part.push_back(std::move(back));
+      filler.fill(part);
+    };
+    fill(cut.first, cut.from, cut.second, cut.to, Chain(forth.rbegin(), forth.rend()));
+    fill(cut.second, cut.to, cut.first, cut.from, forth);
     return filler.take();
   }
 
@@ -190,19 +190,22 @@ class PolygonCutter {
     }
   };
 
+  /// The part between two nodes, without the cut.
+  Part part(int first, int from, int second, int to) const {
+    Part result;
+    result.add(lengths_[first] - from);
+    for (int i = (first + 1) % count_; i != second; i = (i + 1) % count_) result.add(lengths_[i]);
+    result.add(to);
+    return result;
+  }
+
   void add_cut(int first, int from, int second, int to, std::vector<Cut>& cuts) const {
-    Part left, right;
-    left.add(lengths_[first] - from);
-    for (int i = (first + 1) % count_; i != second; i = (i + 1) % count_) left.add(lengths_[i]);
-    left.add(to);
+    Part left = part(first, from, second, to), right = part(second, to, first, from);
     // This number puts one segment between the cut and the irregular node to its left.
     const auto& s = left.sides;
     const int segments = left.count == 2 ? s[0] + s[1] - 2 : 2 - s[0] + s[1] + s[2] - s[3];
     if (segments < 1) return;
     left.add(segments);
-    right.add(lengths_[second] - to);
-    for (int i = (second + 1) % count_; i != first; i = (i + 1) % count_) right.add(lengths_[i]);
-    right.add(from);
     right.add(segments);
     const Spokes to_left(left.span()), to_right(right.span());
     if (to_left.least < 1 || to_right.least < 1) return;

@@ -52,14 +52,10 @@ int QuadTopology::side_at(int quad, int node) const {
 }
 
 QuadTopology::Fan QuadTopology::fan(int side) const {
-  Fan result;
-  result.first = side;
+  Fan result{.first = side};
   while (twins_[result.first] >= 0) {
     result.first = next(twins_[result.first]);
-    if (result.first == side) {
-      result.closed = true;
-      break;
-    }
+    if (result.first == side) break;
   }
   int at = result.first;
   do {
@@ -80,21 +76,16 @@ bool QuadTopology::joined_outside(int from, int to, std::span<const int> patch) 
   for (const int quad : patch) {
     const int start = side_at(quad, from);
     if (start < 0) continue;
-    const Fan round = fan(start);
-    int at = round.first;
-    for (int i = 0; i < round.quads; ++i, at = rotate(at)) {
-      if (contains(patch, at >> 2)) continue;
-      if (end(at) == to || origin(previous(at)) == to) return true;
-    }
-    return false;
+    return !all_around(start, [&](int at) {
+      return contains(patch, at >> 2) || (end(at) != to && origin(previous(at)) != to);
+    });
   }
   return false;
 }
 
 bool QuadTopology::only_in(int node, std::span<const int> patch) const {
-  return uses_[node] == std::count_if(patch.begin(), patch.end(), [&](int quad) {
-           return has_node({&quads_[quad], 1}, node);
-         });
+  return uses_[node] ==
+         std::count_if(patch.begin(), patch.end(), [&](int quad) { return side_at(quad, node) >= 0; });
 }
 
 bool QuadTopology::find_outer_sides(std::span<const int> old_quads, std::span<PendingSide> sides) const {

@@ -21,7 +21,6 @@ class QuadTopology {
   struct Fan {
     int first = -1;  ///< first side; on the boundary if the fan is open
     int quads = 0;
-    bool closed = false;
   };
 
   QuadTopology(std::vector<Quad> quads, int node_count, const ExecutionContext& context = {});
@@ -31,28 +30,31 @@ class QuadTopology {
   const Quad& quad(int quad) const { return quads_[quad]; }
 
   int twin(int side) const { return twins_[side]; }
+  /// The quad beyond a side; -1 = none.
+  int beyond(int side) const { return twins_[side] >> 2; }
   int origin(int side) const { return quads_[side >> 2][side & 3]; }
   int end(int side) const { return quads_[side >> 2][(side + 1) & 3]; }
   static int next(int side) { return (side & ~3) | ((side + 1) & 3); }
+  static int opposite(int side) { return side ^ 2; }
   static int previous(int side) { return (side & ~3) | ((side + 3) & 3); }
   /// The next side around the origin, counter-clockwise; -1 past the last quad of an open fan.
   int rotate(int side) const { return twins_[previous(side)]; }
   /// The fan around the origin of a side. Time: linear in its quads.
   Fan fan(int side) const;
-  /// Calls visit(quad) for the quads of the fan around the origin of a side, until it returns false.
+  /// Calls visit(side) for the sides of the fan around the origin of a side, until it returns false.
   /// \return whether it never did.
   template <class Visit>
   bool all_around(int side, Visit&& visit) const {
     const Fan around = fan(side);
     side = around.first;
     for (int i = 0; i < around.quads; ++i, side = rotate(side))
-      if (!visit(side >> 2)) return false;
+      if (!visit(side)) return false;
     return true;
   }
   /// Adds the quads of the fan around the origin of a side to a patch. False if they do not fit.
   template <class Patch>
   bool add_fan(int side, Patch& patch) const {
-    return all_around(side, [&](int quad) { return patch.add(quad); });
+    return all_around(side, [&](int at) { return patch.add(at >> 2); });
   }
   /// The number of quads in the fan around the origin of a side. Constant time if the node has only one fan.
   int valence(int side) const {

@@ -1,9 +1,12 @@
 /// Numbers the rings' nodes after those of the rest, and adds their quads.
 
-#include "mesher/quads/ring_quads.hpp"
-
 #include <utility>
 #include <vector>
+
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/faces/hole_rings.hpp"
+#include "mesher/mesh/sides.hpp"
+#include "mesher/quads/face_quads.hpp"
 
 namespace quadrille {
 
@@ -34,10 +37,8 @@ class RingJoiner {
       if (renumbered_[i] < 0) copy(i, false);
     }
     find_outermost();
-    for (auto quad : old.mesh.quads) {
-      for (int& corner : quad) corner = renumbered_[corner];
-      whole_.surface_mesh.mesh.quads.push_back(quad);
-    }
+    for (const auto& quad : old.mesh.quads)
+      whole_.surface_mesh.mesh.quads.push_back(with_numbers(quad, renumbered_));
     for (std::size_t i = 0; i < rings_.holes.size(); ++i) add_rings(i);
     return std::move(whole_);
   }
@@ -71,10 +72,9 @@ class RingJoiner {
     for (std::size_t i = 0; i < number.size(); ++i)
       if (number[i] < 0) number[i] = add(hole.points[i], false);
     const bool clockwise = area_of(hole) < 0;
-    for (auto quad : hole.quads) {
-      for (int& corner : quad) corner = number[corner];
+    for (const auto& inside : hole.quads) {
+      auto& quad = whole_.surface_mesh.mesh.quads.emplace_back(with_numbers(inside, number));
       if (clockwise) std::swap(quad[1], quad[3]);
-      whole_.surface_mesh.mesh.quads.push_back(quad);
     }
   }
 

@@ -84,11 +84,6 @@ struct SmoothedMesh {
     }
   }
 
-  void measure_round(int node) {
-    for (const Side corner : corners[node])
-      quality[element_of(corner)] = nodes.quality(quads[element_of(corner)]);
-  }
-
   double least_round(int node) const {
     double least = 1;
     for (const Side corner : corners[node]) least = std::min(least, quality[element_of(corner)]);
@@ -138,7 +133,8 @@ struct SmoothedMesh {
   SurfacePlace moved(int node, const Vector3& target) const { return nodes.moved(surface, node, target); }
   void put(int node, const SurfacePlace& place) {
     nodes.put(node, place);
-    measure_round(node);
+    for (const Side corner : corners[node])
+      quality[element_of(corner)] = nodes.quality(quads[element_of(corner)]);
   }
 
   SurfaceMesh& nodes;
@@ -230,15 +226,6 @@ class Sweeps {
   void wake_around(int node) { mesh_.mark_around(node, active_); }
 
  private:
-  /// \return whether the plan has all quads of the node
-  bool draw(int node, TangentPlan& plan) const {
-    for (const Side corner : mesh_.corners[node]) {
-      const auto [b, c, d] = mesh_.beside(corner);
-      if (!plan.add(b, c, d)) return false;
-    }
-    return true;
-  }
-
   /// Moves a place towards the boundary until the row there is no thicker than allowed.
   void keep_near(const RowLimit& limit, const TangentPlan& plan, double& x, double& y) const {
     if (limit.boundary < 0) return;
@@ -255,7 +242,11 @@ class Sweeps {
   /// parallelogram targets, gave less.
   bool relax(int node) {
     TangentPlan plan(mesh_.points[node], mesh_.normals[node]);
-    if (!draw(node, plan) || plan.count() == 0) return false;
+    for (const Side corner : mesh_.corners[node]) {
+      const auto [b, c, d] = mesh_.beside(corner);
+      if (!plan.add(b, c, d)) return false;
+    }
+    if (plan.count() == 0) return false;
     double x = 0, y = 0, size2 = 0;
     for (int i = 0; i < plan.count(); ++i) {
       const auto& [bx, by, cx, cy, dx, dy] = plan.corner(i);
@@ -291,8 +282,6 @@ class Sweeps {
   std::vector<char> active_, next_active_, turns_sharply_;
   std::vector<RowLimit> row_limits_;  ///< (points)
 };
-
-enum class Goal { raise, untangle };
 
 /// How far the corner areas that `p` touches fall short of a small positive area, in all, over the squared
 /// size: negative, or 0 if none does.
@@ -335,11 +324,11 @@ bool draw(const SmoothedMesh& m, int node, const Vector3& u, const Vector3& v, C
 }
 
 /// Puts the node on the surface near the place found, if that is better there too.
-bool settle(SmoothedMesh& m, int node, const Vector3& target, Goal goal, double size) {
+bool settle(SmoothedMesh& m, int node, const Vector3& target, bool tangled, double size) {
   const SurfacePlace place = m.moved(node, target);
   if (!place.point.allFinite()) return false;
   const auto value = [&](const Vector3& p, const Vector3& normal) {
-    return goal == Goal::raise ? merit_at(m, node, p, normal) : tangle_at(m, node, p, normal, size);
+    return tangled ? tangle_at(m, node, p, normal, size) : merit_at(m, node, p, normal);
   };
   const bool better = value(place.point, place.normal) > value(m.points[node], m.normals[node]);
   if (better) m.put(node, place);
@@ -348,15 +337,15 @@ bool settle(SmoothedMesh& m, int node, const Vector3& target, Goal goal, double 
 
 /// Compass search in the tangent plane for the place where the worst element around the node is best.
 bool search(SmoothedMesh& m, int node) {
-  const Goal goal = m.least_round(node) > 0 ? Goal::raise : Goal::untangle;
+  const bool tangled = !(m.least_round(node) > 0);
   using Lanes = CriteriaPatch::Lanes;
   const Vector3 origin = m.points[node], normal = m.normals[node];
   const double size = m.mean_side(node);
   const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u);
   CriteriaPatch patch(u, v);
-  if (!(size > 0) || (goal == Goal::raise && !draw(m, node, u, v, patch))) return false;
+  if (!(size > 0) || (!tangled && !draw(m, node, u, v, patch))) return false;
   const auto values_at = [&](const Lanes& x, const Lanes& y) {
-    if (goal == Goal::raise) return patch.merits(x, y, short_side);
+    if (!tangled) return patch.merits(x, y, short_side);
     Lanes result;
     for (int k = 0; k < CriteriaPatch::lanes; ++k)
       result[k] = tangle_at(m, node, origin + x[k] * u + y[k] * v, normal, size);
@@ -391,7 +380,7 @@ bool search(SmoothedMesh& m, int node) {
     }
   }
   if (value <= first[0] || (best_x == 0 && best_y == 0)) return false;
-  return settle(m, node, origin + best_x * u + best_y * v, goal, size);
+  return settle(m, node, origin + best_x * u + best_y * v, tangled, size);
 }
 
 /// Works on the nodes of the elements below `floor`, in index order; returns whether a node moved.

@@ -1,6 +1,6 @@
 /// Splits each quad and triangle at its center and the middles of its sides, on the surface.
 
-#include "mesher/quads/subdivision.hpp"
+#include "mesher/quads/face_quads.hpp"
 
 #include <algorithm>
 #include <span>
@@ -8,10 +8,22 @@
 
 #include "geometry/base/side_key.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
 namespace {
+
+/// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
+template <std::size_t n>
+double worst_part(const std::array<Vector3, n>& corners, const std::array<Vector3, n>& middles,
+                  const Vector3& center, const Vector3& normal) {
+  double worst = 1;
+  for (std::size_t k = 0; k < n; ++k)
+    worst = std::min(
+        worst, folded_scaled_jacobian(corners[k], middles[k], center, middles[(k + n - 1) % n], normal));
+  return worst;
+}
 
 class Subdivider {
  public:
@@ -85,23 +97,20 @@ class Subdivider {
     const int fixed = static_cast<int>(fine_.nodes.size());
     if (std::none_of(middles.begin(), middles.end(), [&](int i) { return i < fixed; })) return;
     SurfaceMesh& fine = fine_.surface_mesh;
-    const auto& points = fine.mesh.points;
+    std::array<Vector3, n> corner, middle;
+    for (std::size_t k = 0; k < n; ++k) {
+      corner[k] = fine.mesh.points[renumbered_[element[k]]];
+      middle[k] = fine.mesh.points[middles[k]];
+    }
     const auto worst = [&](const Vector3& at) {
-      double result = 1;
-      for (std::size_t k = 0; k < n; ++k) {
-        result =
-            std::min(result, folded_scaled_jacobian(points[renumbered_[element[k]]], points[middles[k]], at,
-                                                    points[middles[(k + n - 1) % n]], fine.normals[center]));
-      }
-      return result;
+      return worst_part(corner, middle, at, fine.normals[center]);
     };
     constexpr double good = 0.3;
-    const double before = worst(points[center]);
+    const double before = worst(fine.mesh.points[center]);
     if (before > good) return;
     Vector3 target = Vector3::Zero();
     constexpr double of_middle = n == 4 ? 0.5 : 4.0 / 9, of_corner = n == 4 ? -0.25 : -1.0 / 9;
-    for (std::size_t k = 0; k < n; ++k)
-      target += of_middle * points[middles[k]] + of_corner * points[renumbered_[element[k]]];
+    for (std::size_t k = 0; k < n; ++k) target += of_middle * middle[k] + of_corner * corner[k];
     const SurfacePlace place = fine.moved(surface_, center, target);
     if (worst(place.point) > before) fine.put(center, place);
   }
@@ -166,24 +175,6 @@ class SideMiddles {
   std::vector<char> on_boundary_;
 };
 
-/// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
-template <std::size_t n>
-double worst_part(const std::vector<Vector3>& points, const std::array<int, n>& corners,
-                  const SideMiddles& middles, const Vector3& normal) {
-  std::array<Vector3, n> middle;
-  Vector3 center = Vector3::Zero();
-  for (std::size_t k = 0; k < n; ++k) {
-    middle[k] = middles.between(corners[k], corners[(k + 1) % n]);
-    center += middle[k] / static_cast<double>(n);
-  }
-  double worst = 1;
-  for (std::size_t k = 0; k < n; ++k) {
-    worst = std::min(worst, folded_scaled_jacobian(points[corners[k]], middle[k], center,
-                                                   middle[(k + n - 1) % n], normal));
-  }
-  return worst;
-}
-
 }  // namespace
 
 int FaceQuads::add(const SurfacePlace& place, bool fixed, bool is_pole) {
@@ -206,34 +197,40 @@ void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
   if (between.size() < 2) return;
   const SideMiddles middles(p, segments);
   const auto on_boundary = [&](int a, int b) { return middles.on_boundary(a, b); };
-  struct Corner {
-    int triangle, k;  ///< the side from corner k
-  };
-  std::unordered_map<std::uint64_t, Corner> open;  // inner sides of triangles at the boundary
+  std::unordered_map<std::uint64_t, Side> open;  // inner sides of triangles at the boundary
   struct Pair {
     double worst;
     int first, second;
   };
   std::vector<Pair> pairs;
-  const auto try_pair = [&](const Corner& here, const Corner& there) {
-    const auto &t = mesh.triangles[here.triangle], &u = mesh.triangles[there.triangle];
-    const std::array quad{t[here.k], u[(there.k + 2) % 3], t[(here.k + 1) % 3], t[(here.k + 2) % 3]};
+  const auto try_pair = [&](Side here, Side there) {
+    const auto &t = mesh.triangles[element_of(here)], &u = mesh.triangles[element_of(there)];
+    const int i = index_of(here), j = index_of(there);
+    const std::array quad{t[i], u[(j + 2) % 3], t[(i + 1) % 3], t[(i + 2) % 3]};
     for (int k = 0; k < 2; ++k) {
       const int a = quad[k], b = quad[k + 1], c = quad[k + 2], d = quad[(k + 3) % 4];
       if (!on_boundary(a, b) || !on_boundary(c, d)) continue;
       const double shorter = std::min((p[b] - p[a]).norm(), (p[d] - p[c]).norm());
       const double one = (p[c] - p[b]).norm(), other = (p[a] - p[d]).norm();
       if (!(std::min(one, other) < widest_gap * shorter && std::max(one, other) < shorter)) continue;
-      const double worst = worst_part(p, quad, middles, normals[a] + normals[b] + normals[c] + normals[d]);
-      if (worst > good) pairs.push_back({worst, here.triangle, there.triangle});
+      std::array<Vector3, 4> corner, middle;
+      Vector3 center = Vector3::Zero();
+      for (int at = 0; at < 4; ++at) {
+        corner[at] = p[quad[at]];
+        middle[at] = middles.between(quad[at], quad[(at + 1) % 4]);
+        center += middle[at] / 4;
+      }
+      const double worst =
+          worst_part(corner, middle, center, normals[a] + normals[b] + normals[c] + normals[d]);
+      if (worst > good) pairs.push_back({worst, element_of(here), element_of(there)});
     }
   };
   for (const int i : between) {
     const auto& t = mesh.triangles[i];
     if (!on_boundary(t[0], t[1]) && !on_boundary(t[1], t[2]) && !on_boundary(t[2], t[0])) continue;
     for (int k = 0; k < 3; ++k) {
-      const auto [at, is_new] = open.try_emplace(side_key(t[k], t[(k + 1) % 3]), Corner{i, k});
-      if (!is_new) try_pair(at->second, {i, k});
+      const auto [at, is_new] = open.try_emplace(side_key(t[k], t[(k + 1) % 3]), make_side(i, k));
+      if (!is_new) try_pair(at->second, make_side(i, k));
     }
   }
   if (pairs.empty()) return;

@@ -222,12 +222,9 @@ QuadMesh improve_on(const TriangleMesh& triangulation, const QuadMesh& quads, co
       if (known) *known = number[v];
       result.points.push_back(improved.mesh.points[v]);
     }
-    const auto renumber = [&](auto element) {
-      for (int& v : element) v = number[v];
-      return element;
-    };
-    for (const auto& quad : improved.mesh.quads) result.quads.push_back(renumber(quad));
-    for (const auto& triangle : improved.mesh.triangles) result.triangles.push_back(renumber(triangle));
+    for (const auto& quad : improved.mesh.quads) result.quads.push_back(with_numbers(quad, number));
+    for (const auto& triangle : improved.mesh.triangles)
+      result.triangles.push_back(with_numbers(triangle, number));
     if (tagged) {
       result.quad_tags.resize(result.quads.size(), tag);
       result.triangle_tags.resize(result.triangles.size(), tag);

@@ -18,7 +18,7 @@
 #include "mesher/faces/loop_filling.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/quality.hpp"
-#include "mesher/quads/unfold_in_space.hpp"
+#include "mesher/quads/improve.hpp"
 
 namespace quadrille {
 

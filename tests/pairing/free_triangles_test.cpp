@@ -1,6 +1,6 @@
 /// Triangles that no path pairs migrate until they meet.
 
-#include "mesher/pairing/free_triangles.hpp"
+#include "mesher/pairing/costed_coloring.hpp"
 
 #include <gtest/gtest.h>
 

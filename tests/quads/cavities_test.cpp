@@ -1,6 +1,6 @@
 /// Dislocations that cancel out go away.
 
-#include "mesher/quads/cavities.hpp"
+#include "mesher/quads/improve.hpp"
 
 #include <gtest/gtest.h>
 

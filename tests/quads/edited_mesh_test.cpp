@@ -31,8 +31,8 @@ TEST(EditedMesh, TracesThePolygonAroundAPatch) {
   EditedMesh edited(mesh, {});
   Outline outline;
   ASSERT_TRUE(edited.trace(patch_of(block), outline));
-  ASSERT_EQ(outline.length, 8);
-  ASSERT_EQ(outline.inside_count, 1);
+  ASSERT_EQ(outline.length(), 8);
+  ASSERT_EQ(outline.inside_count(), 1);
   EXPECT_EQ(outline.inside[0], 12);  // the middle of 5 by 5 nodes
   double area = 0;
   for (int i = 0; i < 8; ++i) {
@@ -70,7 +70,7 @@ TEST(EditedMesh, ARegularPatchCostsNothing) {
     ASSERT_TRUE(edited.trace(patch_of(places), outline));
     FillingCosts costs{};
     EXPECT_NEAR(edited.find_costs(outline, costs), 0, 1e-12);
-    for (int i = 0; i < outline.length; ++i)
+    for (int i = 0; i < outline.length(); ++i)
       for (int uses = 1; uses <= PatchTemplate::max_uses; ++uses)
         EXPECT_EQ(costs.uses[i][uses] < 1e-12, uses == outline.uses[i]) << i << ' ' << uses;
   }

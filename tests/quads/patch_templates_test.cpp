@@ -87,10 +87,10 @@ TEST(PatchTemplates, CheapestAreThoseOfAllTried) {
     costs.limit = below(20);
     const std::vector<const PatchTemplate*> all = fillings_by_cost(sides, costs);
     const CheapestFillings cheapest = cheapest_fillings(sides, costs);
-    ASSERT_EQ(cheapest.count, std::min<int>(static_cast<int>(all.size()), CheapestFillings::max_count));
-    for (int i = 0; i < cheapest.count; ++i) ASSERT_EQ(cheapest.fillings[i], all[i]) << "round " << round;
+    ASSERT_EQ(cheapest.size(), std::min(all.size(), std::size_t{CheapestFillings::static_capacity}));
+    for (std::size_t i = 0; i < cheapest.size(); ++i) ASSERT_EQ(cheapest[i], all[i]) << "round " << round;
   }
-  EXPECT_EQ(cheapest_fillings(5, {}).count, 0);
+  EXPECT_TRUE(cheapest_fillings(5, {}).empty());
 }
 
 }  // namespace

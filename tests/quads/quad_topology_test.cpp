@@ -17,10 +17,10 @@ TEST(QuadTopology, FollowsFansRoundNodes) {
   const SurfaceMesh mesh = grid(3, 3);
   const QuadTopology topology(mesh.mesh.quads, 16);
   const QuadTopology::Fan inner = topology.fan(topology.side_of(5));
-  EXPECT_TRUE(inner.closed);
+  EXPECT_TRUE(topology.closed(5));
   EXPECT_EQ(inner.quads, 4);
   const QuadTopology::Fan rim = topology.fan(topology.side_of(1));
-  EXPECT_FALSE(rim.closed);
+  EXPECT_FALSE(topology.closed(1));
   EXPECT_EQ(rim.quads, 2);
   EXPECT_EQ(topology.twin(rim.first), -1);
   EXPECT_EQ(topology.valence(topology.side_of(0)), 1);

@@ -1,7 +1,5 @@
 /// The quads of rings and of the rest of a face become one mesh, which ends at the hole.
 
-#include "mesher/quads/ring_quads.hpp"
-
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -10,7 +8,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "geometry/surfaces/face_surface.hpp"
+#include "mesher/faces/hole_rings.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/quads/face_quads.hpp"
 #include "tests/support/ids.hpp"
 #include "tests/support/quad_grid.hpp"
 

@@ -1,6 +1,6 @@
 /// Midpoint subdivision on all faces of the sample models.
 
-#include "mesher/quads/subdivision.hpp"
+#include "mesher/quads/face_quads.hpp"
 
 #include <gtest/gtest.h>
 

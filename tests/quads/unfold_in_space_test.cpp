@@ -1,6 +1,6 @@
 /// Inverted quads that are mended by nodes off the surface.
 
-#include "mesher/quads/unfold_in_space.hpp"
+#include "mesher/quads/improve.hpp"
 
 #include <gtest/gtest.h>
 
