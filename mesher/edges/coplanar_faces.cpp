@@ -18,16 +18,11 @@
 #include <set>
 
 #include "geometry/cad/cad_shape.hpp"
-#include "mesher/edges/facet_edges.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
 
 namespace {
-
-/// Facets of a curved surface are joined up to this distance from a plane, as a share of the size: as far as
-/// elements of that size lie off a circle of twelve of them.
-constexpr double chord_error = 0.06;
 
 /// A plane face that may be joined with others, or several that are joined.
 struct PlaneFace {
@@ -61,12 +56,8 @@ Vector2 direction(const CadEdge& edge, const Coedge& coedge, bool at_start) {
 class CoplanarFaces {
  public:
   CoplanarFaces(const CadShape& shape, const FaceFlags& used, const SizingOptions& sizing,
-                const SizeLimits& limits, bool joins_facets)
-      : shape_(shape),
-        sizing_(sizing),
-        limits_(limits),
-        facets_off_(joins_facets ? chord_error * limits.largest : 0),
-        planes_(shape.faces.size()) {
+                const SizeLimits& limits)
+      : shape_(shape), sizing_(sizing), limits_(limits), planes_(shape.faces.size()) {
     for (const FaceId face : used.ids())
       if (used[face]) planes_[face] = plane_of(face);
   }
@@ -75,80 +66,42 @@ class CoplanarFaces {
   struct Group {
     std::vector<FaceId> members;
     std::set<FaceId> inside;      // the same
-    bool bends = false;           // they are facets of a curved surface
-    double bulge = 0;             // how far they lie off the plane
     PlaneFace whole;              // all of them
     std::set<VertexId> touching;  // where the outline touches itself
   };
 
   /// The faces to be joined with a face, which comes first. \param taken 1 = not again
   Group around(FaceId first, const FaceFlags& taken) const {
-    if (!planes_[first]) return {{first}, {first}, false, 0, {}, {}};
-    Group group = grown(first, taken, taken.size());
-    const std::size_t size = group.members.size();
-    if (group.bends) {  // facets: groups of like widths, with none left over
-      // Of more than size^2 facets, groups of like widths have that size.
-      const std::size_t left = count_facets(first, taken, size * size + 1), groups = (left + size - 1) / size;
-      const std::size_t each = (left + groups - 1) / groups;
-      return each < size ? grown(first, taken, each) : group;
-    }
+    if (!planes_[first]) return {{first}, {first}, {}, {}};
+    Group group{{first}, {first}, *planes_[first], {}};
+    do {
+      grow(group, taken);
+    } while (find_touching(group));
     // A few faces in a plane are a partition that someone drew; many small ones come from a program.
     constexpr std::size_t least = 6;
-    if (size < least) group.members = {first};
+    if (group.members.size() < least) group.members = {first};
     return group;
   }
 
  private:
-  /// \param most number of facets, if the group bends
-  Group grown(FaceId first, const FaceFlags& taken, std::size_t most) const {
-    Group group{{first}, {first}, false, 0, *planes_[first], {}};
-    do {
-      grow(group, taken, most);
-    } while (find_touching(group));
-    return group;
-  }
-
-  void grow(Group& group, const FaceFlags& taken, std::size_t most) const {
+  void grow(Group& group, const FaceFlags& taken) const {
     for (std::size_t i = 0; i < group.members.size(); ++i) {
       const FaceId member = group.members[i];
       for (const EdgeId edge : shape_.faces[member].edges()) {
         for (const FaceId next : shape_.edges[edge].faces) {
           if (taken[next] || group.inside.contains(next) || !planes_[next] || stays(edge)) continue;
           if (!does_harm(edge, group, *planes_[next]) || !lie_beside_each_other(edge, member, next)) continue;
-          const double off = distance_from_plane(group.whole, group.members.front(), next);
-          const bool bends = off > 0 && are_facets(member, next);
-          if (off > (bends ? facets_off_ : 0)) continue;
-          if ((bends || group.bends) && (group.members.size() >= most ||
-                                         group.whole.width() + planes_[next]->width() > limits_.largest))
-            continue;
+          if (!lies_in_plane(group.whole, group.members.front(), next)) continue;
           const std::vector<EdgeId> shared = shared_edges(next, group.inside);
           if (std::any_of(shared.begin(), shared.end(), [&](EdgeId id) { return stays(id); })) continue;
           double length = 0;
           for (const EdgeId id : shared) length += shape_.edges[id].length;
           group.whole.add(*planes_[next], length);
-          group.bends |= bends;
-          group.bulge = std::max(group.bulge, off);
           group.inside.insert(next);
           group.members.push_back(next);
         }
       }
     }
-  }
-
-  /// The number of facets that are connected to one, with it, counted up to `most`.
-  std::size_t count_facets(FaceId first, const FaceFlags& taken, std::size_t most) const {
-    std::vector<FaceId> found{first};
-    std::set<FaceId> seen{first};
-    for (std::size_t i = 0; i < found.size() && found.size() < most; ++i) {
-      const FaceId member = found[i];
-      for (const EdgeId edge : shape_.faces[member].edges()) {
-        for (const FaceId next : shape_.edges[edge].faces) {
-          if (taken[next] || !planes_[next] || stays(edge) || !are_facets(member, next)) continue;
-          if (seen.insert(next).second) found.push_back(next);
-        }
-      }
-    }
-    return found.size();
   }
 
   /// \return whether there are more such vertices than before
@@ -243,26 +196,17 @@ class CoplanarFaces {
            is_bad(edge.first_vertex) || is_bad(edge.last_vertex);
   }
 
-  /// Whether two faces are facets of a surface that bends little from one to the next, each so narrow that
-  /// several are as wide as an element.
-  bool are_facets(FaceId a, FaceId b) const {
-    return std::max(planes_[a]->width(), planes_[b]->width()) < 0.5 * limits_.largest &&
-           planes_[a]->normal.dot(planes_[b]->normal) > facet_cosine;
-  }
-
-  /// How far the edges of a face lie off a plane; 0 within the tolerances of the face and of that of the
-  /// plane.
-  double distance_from_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
+  /// Whether the edges of a face lie in a plane, within the tolerances of the face and of that of the plane.
+  bool lies_in_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
     constexpr int samples = 4;
     const double tolerance = std::max(shape_.faces[first].tolerance, shape_.faces[face].tolerance);
-    double result = 0;
     for (const EdgeId id : shape_.faces[face].edges()) {
-      for (const Vector3& point : points_along(shape_.edges[id], samples)) {
-        const double off = std::abs((point - plane.origin).dot(plane.normal));
-        if (off > std::max(tolerance, shape_.edges[id].tolerance)) result = std::max(result, off);
-      }
+      for (const Vector3& point : points_along(shape_.edges[id], samples))
+        if (std::abs((point - plane.origin).dot(plane.normal)) >
+            std::max(tolerance, shape_.edges[id].tolerance))
+          return false;
     }
-    return result;
+    return true;
   }
 
   /// Whether the faces look the same way, and lie on both sides of the edge.
@@ -283,7 +227,6 @@ class CoplanarFaces {
   const CadShape& shape_;
   const SizingOptions& sizing_;
   const SizeLimits& limits_;
-  const double facets_off_;                            // how far facets may lie off a plane
   IdVector<FaceId, std::optional<PlaneFace>> planes_;  // of the faces that may be joined
 };
 
@@ -388,11 +331,11 @@ void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vec
 }  // namespace
 
 void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const SizingOptions& sizing,
-                         const SizeLimits& limits, bool joins_facets) {
+                         const SizeLimits& limits) {
   const CadShape& before = model.model.shape();
-  const CoplanarFaces faces(before, model.left(used), sizing, limits, joins_facets);
+  const CoplanarFaces faces(before, model.left(used), sizing, limits);
   std::shared_ptr<CadShape> after;
-  FaceFlags taken(before.faces.size()), of_facets(before.faces.size());
+  FaceFlags taken(before.faces.size());
   for (const FaceId face : taken.ids()) {
     if (taken[face]) continue;
     const auto group = faces.around(face, taken);
@@ -403,12 +346,8 @@ void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const Si
     if (!whole) continue;
     if (!after) after = std::make_shared<CadShape>(before);
     replace(*after, group.members, joiner.inner(), std::move(*whole), model);
-    of_facets[face] = group.bulge > 0;
-    model.bulge[face] = group.bulge;
   }
-  if (!after) return;
-  join_edges_of_facets(*after, of_facets, sizing, model);
-  model.model = CadModel(after);
+  if (after) model.model = CadModel(after);
 }
 
 }  // namespace quadrille

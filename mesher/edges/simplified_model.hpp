@@ -17,21 +17,16 @@ inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge, int pieces) {
 
 /// A model without what need not be meshed. Faces, edges and vertices keep their numbers.
 struct SimplifiedModel {
-  CadModel model;                            ///< what is left out has no edges that any face uses
-  FaceFlags gone;                            ///< 1 = a face of a filled hole, or one that another one took
-  std::vector<ShellMesh::FilledHole> holes;  ///< ascending by the first face they lie in
-  IdVector<FaceId, double> areas;            ///< area of the filled holes in each face, millimeters^2
-  IdVector<FaceId, FaceId> taken_by;         ///< the face that each one is part of, if it was joined
-  IdVector<FaceId, double> bulge;  ///< how far the facets joined to a face lie off its plane, millimeters
-  std::vector<ShellMesh::CrossedEdge> inner;  ///< the edges inside joined faces and edges
+  CadModel model;                             ///< what is left out has no edges that any face uses
+  FaceFlags gone;                             ///< 1 = a face of a filled hole, or one that another one took
+  std::vector<ShellMesh::FilledHole> holes;   ///< ascending by the first face they lie in
+  IdVector<FaceId, double> areas;             ///< area of the filled holes in each face, millimeters^2
+  IdVector<FaceId, FaceId> taken_by;          ///< the face that each one is part of, if it was joined
+  std::vector<ShellMesh::CrossedEdge> inner;  ///< the edges inside joined faces
 
   /// The model as it is.
   explicit SimplifiedModel(const CadModel& source)
-      : model(source),
-        gone(source.face_count()),
-        areas(source.face_count()),
-        taken_by(source.face_count()),
-        bulge(source.face_count()) {}
+      : model(source), gone(source.face_count()), areas(source.face_count()), taken_by(source.face_count()) {}
   /// The faces among these that are left.
   FaceFlags left(FaceFlags faces) const {
     for (const FaceId face : faces.ids())

@@ -29,7 +29,7 @@ SimplifiedModel simplified(const CadModel& model, const MeshOptions& options, bo
   const FaceFlags used = faces_used(model, options);
   SimplifiedModel result = fill_holes(model, used, options.sizing, options.fill_holes);
   if (joins && !options.keep_features && options.faces.empty())
-    join_coplanar_faces(result, used, options.sizing, size_limits(model, options.sizing), !options.strict);
+    join_coplanar_faces(result, used, options.sizing, size_limits(model, options.sizing));
   return result;
 }
 

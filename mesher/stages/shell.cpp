@@ -31,8 +31,7 @@ std::string why_merged(const SimplifiedModel& simple, FaceId face) {
   if (!simple.gone[face]) return "tiny: replaced by an edge or a node of its neighbors";
   const FaceId other = simple.taken_by[face];
   if (!other.exists()) return "in a filled hole";
-  return fmt::format("joined with Face{}: {}", other.number(),
-                     simple.bulge[other] > 0 ? "facets" : "coplanar");
+  return fmt::format("joined with Face{}: coplanar", other.number());
 }
 
 ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary& boundary,
@@ -48,9 +47,6 @@ ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary&
   status.status = mesh ? FaceStatus::meshed : prepared.asked[face] ? FaceStatus::failed : FaceStatus::skipped;
   std::vector<std::string> notes = record.history;
   if (mesh && mesh->grid) notes.emplace_back("grid");
-  if (prepared.simple.bulge[face] > 0)
-    notes.push_back(fmt::format("facets as one plane, which they leave by up to {}",
-                                number_text(prepared.simple.bulge[face])));
   if (boundary.plan.tiny.cuts(face))
     notes.emplace_back("ends before a corner that is narrower than the reach");
   status.note = fmt::format("{}", fmt::join(notes, "; "));

@@ -4,14 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -175,69 +169,6 @@ TEST(CoplanarFaces, AJoinedFaceKeepsItsHole) {
   double area = 0;
   for (const auto& quad : mesh.quads) area += quad_area_vector(mesh.points, quad).norm();
   EXPECT_NEAR(area, 20 * 20 - 10 * 10, 1e-6);
-}
-
-/// A solid cylinder of plane facets, as programs write that know no curved surfaces. \param split whether
-/// each facet is two triangles
-CadModel faceted_cylinder(int facets, double radius, double height, bool split) {
-  BRepBuilderAPI_Sewing sewing(1e-5);
-  const auto at = [&](int i, double z) {
-    const double angle = 2 * std::numbers::pi * i / facets;
-    return gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), z);
-  };
-  const auto add = [&](const std::vector<gp_Pnt>& points) {
-    BRepBuilderAPI_MakePolygon wire;
-    for (const gp_Pnt& point : points) wire.Add(point);
-    wire.Close();
-    sewing.Add(BRepBuilderAPI_MakeFace(wire.Wire()).Face());
-  };
-  std::vector<gp_Pnt> bottom, top;
-  for (int i = 0; i < facets; ++i) {
-    bottom.push_back(at(i, 0));
-    top.push_back(at(i, height));
-    if (split) {
-      add({at(i, 0), at(i + 1, 0), at(i + 1, height)});
-      add({at(i, 0), at(i + 1, height), at(i, height)});
-    } else {
-      add({at(i, 0), at(i + 1, 0), at(i + 1, height), at(i, height)});
-    }
-  }
-  add(bottom);
-  add(top);
-  sewing.Perform();
-  return CadModel(std::make_shared<CadShape>(sewing.SewedShape(), "facets"));
-}
-
-/// A cylinder of many facets has about as many quads as its size asks for, on its surface but for what facets
-/// joined to one plane lie off it.
-TEST(CoplanarFaces, FacetsOfACylinderDoNotMakeTheMeshDense) {
-  constexpr double radius = 50, height = 100, size = 5;
-  const double area = 2 * std::numbers::pi * radius * (radius + height);
-  for (const bool split : {false, true}) {
-    const CadModel model = faceted_cylinder(360, radius, height, split);
-    const ShellMesh mesh = meshed(model, with_size(size));
-    EXPECT_EQ(validate(mesh, true), std::vector<std::string>{});
-    EXPECT_LT(static_cast<double>(mesh.quads.size()), (split ? 2 : 1.5) * area / (size * size)) << split;
-    EXPECT_TRUE(mesh.warnings.empty()) << mesh.warnings.front();
-    double covered = 0;
-    for (const auto& quad : mesh.quads) covered += quad_area_vector(mesh.points, quad).norm();
-    EXPECT_NEAR(covered, area, 0.01 * area);
-    for (const Vector3& point : mesh.points) {
-      const double off = radius - std::hypot(point.x(), point.y());
-      const bool is_on_side = point.z() > 1e-9 && point.z() < height - 1e-9;
-      if (is_on_side) {
-        EXPECT_LT(std::abs(off), 0.06 * size);
-      }
-    }
-  }
-}
-
-/// With `strict` nodes lie on the facets.
-TEST(CoplanarFaces, FacetsStayWithStrict) {
-  MeshOptions options = with_size(5);
-  options.strict = true;
-  const ShellMesh mesh = meshed(faceted_cylinder(60, 50, 40, false), options);
-  EXPECT_EQ(faces_with_quads(mesh), 62);
 }
 
 }  // namespace

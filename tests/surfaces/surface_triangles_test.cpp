@@ -50,7 +50,7 @@ std::size_t open_sides(const SurfaceTriangles& surface) {
   return std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.second != 0; });
 }
 
-/// As faces have that were joined from facets.
+/// As coplanar faces have that were joined.
 TEST(SurfaceTriangles, FacesMayBeOutlinedByEdgesOfOthers) {
   CadShape shape = cylinder();
   FaceFlags used(shape.faces.size(), 0);
