@@ -1,4 +1,5 @@
-/// Based on: longest-side refinement (Rivara 1984), with all marked sides of a triangle divided at once.
+/// Triangulates faces with OpenCASCADE. Whether a side is divided depends on the side alone, not on its
+/// triangle, so that triangles on both sides of it stay conforming.
 
 #include "geometry/surfaces/surface_triangles.hpp"
 
@@ -8,6 +9,7 @@
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -56,140 +58,6 @@ void add_lines(const TopoDS_Edge& edge, const TopoDS_Face& face, SurfaceTriangle
   }
 }
 
-/// One round of dividing sides.
-class Round {
- public:
-  Round(SurfaceTriangles& surface, const std::function<double(FaceId, const Vector3&)>& longest)
-      : surface_(surface) {
-    for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
-      for (int k = 0; k < 3; ++k) {
-        const auto [a, b] = side(i, k);
-        const auto [found, is_new] = middles_.try_emplace(side_key(a, b));
-        SharedSide& own = found->second;
-        if (!is_new) {
-          own.triangles[1] = static_cast<int>(i);
-          continue;
-        }
-        own.triangles[0] = static_cast<int>(i);
-        const Vector3 middle = 0.5 * (surface.points[a] + surface.points[b]);
-        if (length(a, b) > longest(surface.faces[i], middle)) mark(own);
-      }
-    }
-  }
-
-  bool any() const { return !divided_.empty(); }
-
-  void divide() {
-    close();
-    std::vector<std::array<int, 3>> triangles;
-    std::vector<FaceId> faces;
-    for (std::size_t i = 0; i < surface_.triangles.size(); ++i) {
-      const std::size_t before = triangles.size();
-      cut(i, triangles);
-      faces.insert(faces.end(), triangles.size() - before, surface_.faces[i]);
-    }
-    std::vector<SurfaceTriangles::Line> lines;
-    for (const SurfaceTriangles::Line& line : surface_.lines) {
-      const auto found = middles_.find(side_key(line.points[0], line.points[1]));
-      if (found == middles_.end() || found->second.middle < 0) {
-        lines.push_back(line);
-        continue;
-      }
-      lines.push_back({{line.points[0], found->second.middle}, line.edge, line.face});
-      lines.push_back({{found->second.middle, line.points[1]}, line.edge, line.face});
-    }
-    surface_.triangles = std::move(triangles);
-    surface_.faces = std::move(faces);
-    surface_.lines = std::move(lines);
-  }
-
- private:
-  static constexpr int whole = -1, to_divide = -2;
-
-  struct SharedSide {
-    int middle = whole;  // index of its midpoint, or one of the states above
-    std::array<int, 2> triangles{-1, -1};
-  };
-
-  void mark(SharedSide& side) {
-    side.middle = to_divide;
-    divided_.push_back(&side);
-  }
-
-  std::pair<int, int> side(std::size_t triangle, int k) const {
-    return {surface_.triangles[triangle][k], surface_.triangles[triangle][(k + 1) % 3]};
-  }
-  double length(int a, int b) const { return (surface_.points[a] - surface_.points[b]).norm(); }
-  int longest_side(std::size_t triangle) const {
-    int best = 0;
-    for (int k = 1; k < 3; ++k) {
-      const auto [a, b] = side(triangle, k);
-      const auto [c, d] = side(triangle, best);
-      if (length(a, b) > length(c, d)) best = k;
-    }
-    return best;
-  }
-
-  /// Marks the longest side of every triangle that has a marked side. This keeps angles from degenerating.
-  void close() {
-    while (!divided_.empty()) {
-      const SharedSide& side = *divided_.back();
-      divided_.pop_back();
-      for (const int triangle : side.triangles) {
-        if (triangle < 0) continue;
-        SharedSide& longest = side_of(triangle, longest_side(triangle));
-        if (longest.middle == whole) mark(longest);
-      }
-    }
-  }
-
-  SharedSide& side_of(std::size_t triangle, int k) {
-    const auto [a, b] = side(triangle, k);
-    return middles_.at(side_key(a, b));
-  }
-
-  /// The midpoint of a side that is to be divided; negative for the others.
-  int point_of(std::size_t triangle, int k) {
-    int& point = side_of(triangle, k).middle;
-    if (point != to_divide) return point;
-    const auto [a, b] = side(triangle, k);
-    point = static_cast<int>(surface_.points.size());
-    surface_.points.push_back(0.5 * (surface_.points[a] + surface_.points[b]));
-    surface_.uv.push_back(0.5 * (surface_.uv[a] + surface_.uv[b]));
-    surface_.point_faces.push_back(surface_.faces[triangle]);
-    return point;
-  }
-
-  void cut(std::size_t triangle, std::vector<std::array<int, 3>>& out) {
-    const int k = longest_side(triangle);
-    const auto& nodes = surface_.triangles[triangle];
-    // Cut from the middle of the longest side to the opposite corner. Each half may have one more such side.
-    const int a = nodes[k], b = nodes[(k + 1) % 3], c = nodes[(k + 2) % 3];
-    const int ab = point_of(triangle, k);
-    if (ab < 0) {
-      out.push_back(nodes);
-      return;
-    }
-    const int bc = point_of(triangle, (k + 1) % 3), ca = point_of(triangle, (k + 2) % 3);
-    if (bc < 0) {
-      out.push_back({ab, b, c});
-    } else {
-      out.push_back({ab, b, bc});
-      out.push_back({ab, bc, c});
-    }
-    if (ca < 0) {
-      out.push_back({ab, c, a});
-    } else {
-      out.push_back({ab, c, ca});
-      out.push_back({ab, ca, a});
-    }
-  }
-
-  SurfaceTriangles& surface_;
-  std::unordered_map<std::uint64_t, SharedSide> middles_;
-  std::vector<SharedSide*> divided_;  // marked sides whose triangles still have to be checked
-};
-
 }  // namespace
 
 SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, double turn,
@@ -235,12 +103,60 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
 void divide_sides(SurfaceTriangles& surface,
                   const std::function<double(FaceId face, const Vector3&)>& longest, std::size_t most,
                   const ExecutionContext& context) {
-  constexpr int most_rounds = 40;
-  for (int round = 0; round < most_rounds && surface.triangles.size() < most; ++round) {
+  using Piece = std::pair<FaceId, std::array<int, 3>>;
+  std::vector<Vector3>& points = surface.points;
+  std::unordered_map<std::uint64_t, int> middles;  // of the divided sides
+  std::vector<Piece> left, done;
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    left.emplace_back(surface.faces[i], surface.triangles[i]);
+  while (!left.empty() && left.size() + done.size() < most) {
     context.check();
-    Round next(surface, longest);
-    if (!next.any()) return;
-    next.divide();
+    std::vector<Piece> halves;
+    for (const Piece& piece : left) {
+      const auto& [face, nodes] = piece;
+      double length = 0;
+      int a = -1, b = -1, c = -1;  // corners, if the first two have a side to be divided
+      for (int k = 0; k < 3; ++k) {
+        const Vector3 &from = points[nodes[k]], &to = points[nodes[(k + 1) % 3]];
+        const double own = (to - from).norm();
+        if (!(own > length) || !(own > longest(face, 0.5 * (from + to)))) continue;
+        length = own;
+        a = nodes[k], b = nodes[(k + 1) % 3], c = nodes[(k + 2) % 3];
+      }
+      if (a < 0) {
+        done.push_back(piece);
+        continue;
+      }
+      const auto [middle, is_new] = middles.try_emplace(side_key(a, b), static_cast<int>(points.size()));
+      if (is_new) {
+        points.push_back(Vector3(0.5 * (points[a] + points[b])));
+        surface.uv.push_back(Vector2(0.5 * (surface.uv[a] + surface.uv[b])));
+        surface.point_faces.push_back(face);
+      }
+      halves.emplace_back(face, std::array{middle->second, b, c});
+      halves.emplace_back(face, std::array{middle->second, c, a});
+    }
+    left = std::move(halves);
+  }
+  done.insert(done.end(), left.begin(), left.end());
+  std::stable_sort(done.begin(), done.end(),
+                   [](const Piece& a, const Piece& b) { return a.first < b.first; });
+  surface.triangles.clear();
+  surface.faces.clear();
+  for (const auto& [face, nodes] : done) {
+    surface.triangles.push_back(nodes);
+    surface.faces.push_back(face);
+  }
+  for (std::size_t i = 0; i < surface.lines.size();) {
+    SurfaceTriangles::Line& line = surface.lines[i];
+    const auto middle = middles.find(side_key(line.points[0], line.points[1]));
+    if (middle == middles.end()) {
+      ++i;
+      continue;
+    }
+    SurfaceTriangles::Line half = line;
+    half.points[0] = line.points[1] = middle->second;
+    surface.lines.push_back(half);
   }
 }
 

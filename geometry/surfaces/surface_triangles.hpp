@@ -37,7 +37,8 @@ SurfaceTriangles triangulate_surface(const CadShape& shape, double deflection, d
                                      const FaceFlags& used, const ExecutionContext& context);
 
 /// Bisects sides that are longer than wanted, until there are none or there are `most` triangles. The
-/// triangles of a face stay conforming. \param longest(face, point) the longest side wanted there.
+/// triangles of a face are conforming if there are none. \param longest(face, point) the longest side wanted
+/// with its middle there.
 void divide_sides(SurfaceTriangles& surface,
                   const std::function<double(FaceId face, const Vector3&)>& longest, std::size_t most,
                   const ExecutionContext& context);

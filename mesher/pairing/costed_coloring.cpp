@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace quadrille {
 
 namespace {
+
+constexpr auto pi = std::numbers::pi_v<float>;
 
 /// Corner angles of a triangle and its unit normal. The angles of an inverted triangle are negative.
 struct TriangleShape {
@@ -25,8 +28,8 @@ inline float arc(float y, float x) {
   float a =
       r * (0.99997726F +
            s * (-0.33262347F + s * (0.19354346F + s * (-0.11643287F + s * (0.05265332F - s * 0.01172120F)))));
-  a = y > ax ? 1.57079633F - a : a;
-  return x < 0 ? 3.14159265F - a : a;
+  a = y > ax ? pi / 2 - a : a;
+  return x < 0 ? pi - a : a;
 }
 
 TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vector3>& points) {
@@ -37,7 +40,7 @@ TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vecto
   TriangleShape shape{};
   shape.angle[0] = arc(static_cast<float>(area), static_cast<float>(-ab.dot(ca)));
   shape.angle[1] = arc(static_cast<float>(area), static_cast<float>(-bc.dot(ab)));
-  shape.angle[2] = 3.14159265F - shape.angle[0] - shape.angle[1];
+  shape.angle[2] = pi - shape.angle[0] - shape.angle[1];
   const double scale = area > 0 ? 1 / area : 0;
   shape.normal = (cross * scale).cast<float>();
   return shape;
@@ -47,13 +50,12 @@ TriangleShape shape_of(const std::array<int, 3>& corner, const std::vector<Vecto
 /// corner angles and the fold between the two: 0 for a rectangle, about 0.3 for two equilateral triangles,
 /// above 2 for a concave quad.
 float pair_cost(const TriangleShape& first, int i, const TriangleShape& second, int j) {
-  constexpr float right = 1.57079633F;
   const float corners[4] = {first.angle[previous_index(i)], second.angle[previous_index(j)],
                             first.angle[i] + second.angle[next_index(j)],
                             first.angle[next_index(i)] + second.angle[j]};
   float worst = 0, squares = 0;
   for (float corner : corners) {
-    const float deviation = std::fabs(corner / right - 1);
+    const float deviation = std::fabs(corner / (pi / 2) - 1);
     worst = std::max(worst, deviation);
     squares += deviation * deviation;
   }

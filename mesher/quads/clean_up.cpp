@@ -18,8 +18,7 @@ namespace {
 using Quad = QuadTopology::Quad;
 /// Scaled Jacobian above which a better connected patch may start: smoothing repairs it.
 constexpr double mendable_patch = 0.05;
-constexpr double regular_cost = 0.5;  ///< nodes that cost less are left alone
-constexpr double min_gain = 0.5;      ///< a patch is refilled only if it gains this much
+constexpr double min_gain = 0.5;  ///< a patch is refilled if it gains this much; nodes that cost less stay
 constexpr double worth_trying = 1.5;  ///< a patch whose nodes cost less in all cannot gain
 constexpr double resize_cost = 0.2;   ///< cost of each node more or fewer: keeps the density
 constexpr double drift_cost = 50;     ///< cost of each added node, times the share of quads already gained
@@ -41,7 +40,7 @@ class CleanUp : private EditedMesh {
     SparseCheck check(context_);
     for (int node = 0; node < node_count(); ++node) {
       check();
-      if (doubtful_[node] && cost_at(node) > regular_cost) push(node);
+      if (doubtful_[node] && cost_at(node) > min_gain) push(node);
     }
     std::fill(doubtful_.begin(), doubtful_.end(), 0);
     // Each move lowers the cost by at least min_gain, so the queue empties; the bound is for safety only.
@@ -51,7 +50,7 @@ class CleanUp : private EditedMesh {
       check_often();
       const int node = queue_[head];
       queued_[node] = 0;
-      if (topology_.side_of(node) < 0 || cost_at(node) <= regular_cost) continue;
+      if (topology_.side_of(node) < 0 || cost_at(node) <= min_gain) continue;
       blocked_ = false;
       if (improve_round(node))
         any = true;

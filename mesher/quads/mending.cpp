@@ -34,11 +34,7 @@ constexpr double slack = 8;
 constexpr double floor_sine = 0.3;
 
 constexpr int max_attempts = 40;  ///< attempts for one quad
-/// A filling is not tried if its objective, before its nodes move, is this much above that of the patch.
-constexpr double hopeless = 20;
 constexpr int sweeps = 3;
-/// An attempt is abandoned if this many times the gain of the last sweep would not make it the best.
-constexpr double follow = 1;
 constexpr int passes = 2;  ///< passes over all quads
 
 /// The quads of a filling and those next to them, apart from the mesh. Nodes move in the patch's plane; each
@@ -299,7 +295,8 @@ class Mending : private EditedMesh {
       Trial trial;
       lay(candidate, trial);
       candidate.quick = trial.sum() - candidate.before;
-      if (candidate.quick + per_cost * candidate.cost > hopeless) continue;
+      // Before its nodes move, it is worse than the patch by as much as a quad counts at most.
+      if (candidate.quick + per_cost * candidate.cost > largest_objective) continue;
       candidates.push_back(candidate);
     }
   }
@@ -320,7 +317,8 @@ class Mending : private EditedMesh {
       const double last = now.gain;
       trial.relax();
       now.weigh();
-      if (now.gain + follow * (now.gain - last) <= best) return false;
+      // The gain of this sweep once more would not make it the best.
+      if (now.gain + (now.gain - last) <= best) return false;
     }
     return now.gain > best && trial.sound();
   }

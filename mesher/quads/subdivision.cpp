@@ -14,6 +14,8 @@ namespace quadrille {
 
 namespace {
 
+constexpr double good = 0.3;  ///< scaled Jacobian above which a part of a split element is good enough
+
 /// Least scaled Jacobian of the parts into which an element is split; negative if a part is inverted.
 template <std::size_t n>
 double worst_part(const std::array<Vector3, n>& corners, const std::array<Vector3, n>& middles,
@@ -105,7 +107,6 @@ class Subdivider {
     const auto worst = [&](const Vector3& at) {
       return worst_part(corner, middle, at, fine.normals[center]);
     };
-    constexpr double good = 0.3;
     const double before = worst(fine.mesh.points[center]);
     if (before > good) return;
     Vector3 target = Vector3::Zero();
@@ -185,7 +186,6 @@ int FaceQuads::add(const SurfacePlace& place, bool fixed, bool is_pole) {
 
 void tie_across_gaps(TriangleMesh& mesh, const std::vector<Vector3>& normals,
                      const std::vector<FaceBoundary::Segment>& segments) {
-  constexpr double good = 0.3;
   const auto& p = mesh.points;
   int count = 0;
   for (const auto& segment : segments) count = std::max({count, segment.a + 1, segment.b + 1});
