@@ -44,7 +44,7 @@ void check(const ShellMesh& mesh, const AdaptOptions& options) {
 bool deforms(const SolverResult& result) {
   constexpr double rounding = 1e-9;
   const Vector3& first = result.displacements.front();
-  return std::any_of(result.displacements.begin(), result.displacements.end(), [&](const Vector3& moved) {
+  return std::ranges::any_of(result.displacements, [&](const Vector3& moved) {
     return (moved - first).norm() > rounding * (moved.norm() + first.norm());
   });
 }
@@ -161,7 +161,7 @@ class SizePlan {
       }
       double longest = 0;
       for (int k = 0; k < 4; ++k) longest = std::max(longest, (corners[(k + 1) % 4] - corners[k]).norm());
-      const double least = *std::min_element(sizes.begin(), sizes.end());
+      const double least = *std::ranges::min_element(sizes);
       const int n = to_int(std::clamp(std::ceil(longest / least), 2.0, 32.0));
       for (int k = 0; k < n * n; ++k) {
         const int column = k % n, row = k / n;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 
@@ -52,19 +53,18 @@ class PeakFinder {
   std::vector<StressPeak> find() const {
     constexpr double least_share = 0.3, apart = 3;
     constexpr std::size_t max_peaks = 10;
-    const double largest = *std::max_element(stress_.begin(), stress_.end());
+    const double largest = *std::ranges::max_element(stress_);
     std::vector<std::size_t> order(stress_.size());
     std::iota(order.begin(), order.end(), 0);
     std::erase_if(order, [&](std::size_t node) {
       return corners_[node].empty() || stress_[node] < least_share * largest || !is_highest(node);
     });
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return stress_[a] > stress_[b]; });
+    std::ranges::stable_sort(order, std::greater(), [&](std::size_t node) { return stress_[node]; });
     std::vector<StressPeak> peaks;
     for (const std::size_t node : order) {
       const Vector3& at = mesh_.points[node];
       const double size = size_at(node);
-      const bool is_apart = std::none_of(peaks.begin(), peaks.end(), [&](const StressPeak& other) {
+      const bool is_apart = std::ranges::none_of(peaks, [&](const StressPeak& other) {
         return (other.at - at).norm() < apart * std::max(size, other.size);
       });
       if (is_apart) peaks.push_back({at, stress_[node], size, is_sharp_corner(node)});
@@ -101,8 +101,7 @@ class PeakFinder {
       ++sides[next];
       ++sides[before];
     }
-    const bool on_rim =
-        std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 1; });
+    const bool on_rim = std::ranges::any_of(sides, [](const auto& side) { return side.second == 1; });
     return on_rim && angle > sharp;
   }
 
@@ -141,9 +140,7 @@ std::vector<PeakChange> changes_of_peaks(const std::vector<StressPeak>& before,
   std::vector<PeakChange> changes;
   for (const StressPeak& peak : now) {
     const auto distance = [&](const StressPeak& other) { return (other.at - peak.at).norm(); };
-    const auto nearest = std::min_element(before.begin(), before.end(), [&](const auto& a, const auto& b) {
-      return distance(a) < distance(b);
-    });
+    const auto nearest = std::ranges::min_element(before, {}, distance);
     if (nearest == before.end() || !(nearest->stress > 0) ||
         distance(*nearest) > same_place * std::max(peak.size, nearest->size))
       continue;

@@ -93,7 +93,7 @@ class CoplanarFaces {
           if (!does_harm(edge, group, *planes_[next]) || !lie_beside_each_other(edge, member, next)) continue;
           if (!lies_in_plane(group.whole, group.members.front(), next)) continue;
           const std::vector<EdgeId> shared = shared_edges(next, group.inside);
-          if (std::any_of(shared.begin(), shared.end(), [&](EdgeId id) { return stays(id); })) continue;
+          if (std::ranges::any_of(shared, [&](EdgeId id) { return stays(id); })) continue;
           double length = 0;
           for (const EdgeId id : shared) length += shape_.edges[id].length;
           group.whole.add(*planes_[next], length);
@@ -179,7 +179,7 @@ class CoplanarFaces {
     std::vector<EdgeId> result = shape_.faces[face].edges();
     std::erase_if(result, [&](EdgeId edge) {
       const auto& faces = shape_.edges[edge].faces;
-      return std::none_of(faces.begin(), faces.end(), [&](FaceId other) { return inside.contains(other); });
+      return std::ranges::none_of(faces, [&](FaceId other) { return inside.contains(other); });
     });
     return result;
   }
@@ -275,7 +275,7 @@ class FaceJoiner {
     bool is_plain = true;
     std::vector<CadWire> wires;
     for_each_coedge([&](const CadFace& face, Coedge coedge) {
-      if (std::binary_search(inner_.begin(), inner_.end(), coedge.edge)) return;
+      if (std::ranges::binary_search(inner_, coedge.edge)) return;
       const CadFace& first = shape_.faces[members_.front()];
       coedge.forward = coedge.forward == (face.reversed == first.reversed);
       coedge.source = TopoDS::Edge(coedge.source.Oriented(coedge.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
@@ -323,7 +323,7 @@ void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vec
     auto& faces = shape.edges[edge].faces;
     for (FaceId& at : faces)
       if (model.taken_by[at].exists()) at = model.taken_by[at];
-    std::sort(faces.begin(), faces.end());
+    std::ranges::sort(faces);
   }
   shape.faces[first] = std::move(face);
 }

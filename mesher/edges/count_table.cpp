@@ -83,7 +83,7 @@ class EdgeTabulator {
 /// The index of a parameter in a table. Inserts the parameter if it is missing.
 std::size_t split_at(CountTable& table, double t) {
   auto &parameters = table.parameters, &counts = table.counts, &lengths = table.lengths;
-  const auto it = std::lower_bound(parameters.begin(), parameters.end(), t);
+  const auto it = std::ranges::lower_bound(parameters, t);
   const std::size_t i = it - parameters.begin();
   if (it == parameters.end()) return i - 1;
   if (i == 0 || *it == t) return i;

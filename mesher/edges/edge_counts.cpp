@@ -28,13 +28,13 @@ constexpr double largest_ratio_of_sums = 1.3;
 constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 bool has_sums(const FaceSides& sides) {
-  return std::any_of(sides.facing.begin(), sides.facing.end(),
-                     [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
+  return std::ranges::any_of(
+      sides.facing, [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
 }
 
 bool is_on(EdgeId edge, FaceSides sides) {
   sides.drop_facing();
-  return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end();
+  return std::ranges::find(sides.rest, edge) != sides.rest.end();
 }
 
 /// Chords with the numbers that users prescribe for them.
@@ -93,8 +93,8 @@ FixedChords tie_chords(const CadShape& shape, const CountTargets& targets, const
   }
   for (const FaceId face : sides.ids()) {
     const auto& facing = sides[face].facing;
-    bool fits = std::none_of(facing.begin(), facing.end(),
-                             [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
+    bool fits = std::ranges::none_of(
+        facing, [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
     for (const FacingPair& pair : facing) {
       if (fits && pair.first.size() == 1 && pair.second.size() == 1)
         fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
@@ -285,8 +285,7 @@ class CountProblem {
   void add_term(EdgeId edge, int node, int coefficient) {
     if (targets_.least[edge] == 0) return;
     auto& terms = variable(chords_.chords.of(edge)).terms;
-    const auto it =
-        std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
+    const auto it = std::ranges::find_if(terms, [&](const auto& term) { return term.first == node; });
     if (it == terms.end()) {
       terms.push_back({node, coefficient});
     } else {

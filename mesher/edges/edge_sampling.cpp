@@ -381,7 +381,7 @@ void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
     auto& edge = nodes.edges[i];
     edge.nodes = nodes.edges[tiny.edges[i]].nodes;
     edge.borrows = true;
-    if (tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
+    if (tiny.reversed_edges[i]) std::ranges::reverse(edge.nodes);
   }
   nodes.left_out = tiny.folded;
 }

@@ -111,14 +111,13 @@ class SideFinder {
   }
 
   static bool is_smooth(const Walk& walk) {
-    return std::all_of(walk.turnings.begin(), walk.turnings.end(),
-                       [](double turning) { return std::abs(turning) <= smooth_turning; });
+    return std::ranges::all_of(walk.turnings,
+                               [](double turning) { return std::abs(turning) <= smooth_turning; });
   }
 
   /// Finds outlines with four corners outside and none at the holes.
   void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
-    const auto outer =
-        std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
+    const auto outer = std::ranges::find_if(walks, [](const Walk& walk) { return !is_smooth(walk); });
     if (outer == walks.end()) return;
     for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
       if (walk != outer && !is_smooth(*walk)) return;
@@ -185,7 +184,7 @@ class SideFinder {
   }
 
   static FaceSide turned(FaceSide side) {
-    std::reverse(side.begin(), side.end());
+    std::ranges::reverse(side);
     for (SideEdge& edge : side) edge.forward = !edge.forward;
     return side;
   }

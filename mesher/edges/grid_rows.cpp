@@ -55,7 +55,7 @@ EdgeFlags find_grid_rows(const CadShape& shape, const FaceOutlines& sides, const
     int segments = prescribed[edge]->segments;
     for (const EdgeId member : chord)
       if (!prescribed[edge]->is_fixed() && fixed_number(member) > 0) segments = fixed_number(member);
-    divided[edge] = std::all_of(chord.begin(), chord.end(), [&](EdgeId member) {
+    divided[edge] = std::ranges::all_of(chord, [&](EdgeId member) {
       if (const int number = fixed_number(member)) return number == segments;
       const double own = std::min(size, value_or(options.edge_sizes, shape.edges[member].number, size));
       const double wanted = std::max(1.0, shape.edges[member].length / own);

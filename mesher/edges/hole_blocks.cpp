@@ -67,8 +67,7 @@ class HoleFitter {
     for (const CadWire& wire : face.wires) holes.push_back(&wire);
     holes.erase(holes.begin() + sides.outer);
     const double side = length_of(face.wires[sides.outer]) / (2 * (now.columns + now.rows));
-    if (!std::all_of(holes.begin(), holes.end(),
-                     [&](const CadWire* hole) { return has_size_of(*hole, side); }))
+    if (!std::ranges::all_of(holes, [&](const CadWire* hole) { return has_size_of(*hole, side); }))
       return false;
     std::vector<HolePlace> shares;
     for (const HoleShares& hole : shares_of_holes(shape_, face, sides))

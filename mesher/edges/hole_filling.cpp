@@ -70,8 +70,7 @@ class HoleFinder {
       result.push_back(*hole);
     }
     std::erase_if(result, [&](const Hole& hole) {
-      return std::any_of(hole.loops.begin(), hole.loops.end(),
-                         [&](std::size_t i) { return taken.contains(loops_[i].host); });
+      return std::ranges::any_of(hole.loops, [&](std::size_t i) { return taken.contains(loops_[i].host); });
     });
     return result;
   }
@@ -154,7 +153,7 @@ class HoleFinder {
   bool stays(FaceId face) const {
     const auto edges = shape_.faces[face].edges();
     return sizing_.names_face(face.number()) ||
-           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return stays(shape_.edges[edge]); });
+           std::ranges::any_of(edges, [&](EdgeId edge) { return stays(shape_.edges[edge]); });
   }
 
   /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.
@@ -288,8 +287,8 @@ void fill(const HoleFinder& finder, const std::vector<Hole>& holes, CadShape& sh
       wires[loop.host].insert(loop.wire);
     }
     for (const FaceId face : hole.faces) leave_out(face, filled, shape, result);
-    std::sort(filled.in.begin(), filled.in.end());
-    std::sort(filled.faces.begin(), filled.faces.end());
+    std::ranges::sort(filled.in);
+    std::ranges::sort(filled.faces);
     result.holes.push_back(std::move(filled));
   }
   for (const auto& [host, which] : wires) result.areas[host] += close(shape.faces[host], which, shape);
@@ -309,8 +308,7 @@ SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const S
     if (holes.empty()) break;
     fill(finder, holes, *shape, result);
   }
-  std::stable_sort(result.holes.begin(), result.holes.end(),
-                   [](const auto& a, const auto& b) { return a.in < b.in; });
+  std::ranges::stable_sort(result.holes, {}, &ShellMesh::FilledHole::in);
   return result;
 }
 

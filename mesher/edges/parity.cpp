@@ -17,8 +17,7 @@ EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, const FaceFlags& 
   for (const EdgeId edge : edges.ids()) {
     if (std::isfinite(edges[edge].cost) && !edges[edge].faces.empty()) order.push_back(edge);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](EdgeId a, EdgeId b) { return edges[a].cost < edges[b].cost; });
+  std::ranges::stable_sort(order, {}, [&](EdgeId edge) { return edges[edge].cost; });
   using Bits = boost::dynamic_bitset<>;
   struct Row {
     Bits faces, edges;

@@ -55,8 +55,8 @@ struct TubeFinder {
         if (coedge.internal || !has_ends(edge)) return std::nullopt;
         if (is_small(edge, width)) {
           tube.rims.push_back(coedge.edge);
-          has_neighbor |= std::any_of(edge.faces.begin(), edge.faces.end(),
-                                      [&](FaceId other) { return other != id && is_large(other); });
+          has_neighbor |=
+              std::ranges::any_of(edge.faces, [&](FaceId other) { return other != id && is_large(other); });
         } else if (!seam.exists() || seam == coedge.edge) {
           seam = coedge.edge;
         } else {
@@ -71,8 +71,8 @@ struct TubeFinder {
 
   bool is_large(FaceId face) const {
     const auto edges = shape.faces[face].edges();
-    return used[face] && !std::all_of(edges.begin(), edges.end(),
-                                      [&](EdgeId edge) { return is_small(shape.edges[edge], width); });
+    return used[face] &&
+           !std::ranges::all_of(edges, [&](EdgeId edge) { return is_small(shape.edges[edge], width); });
   }
 
   /// Whether a face stays within the width of an edge, at samples all over it.
@@ -82,8 +82,8 @@ struct TubeFinder {
     const double spacing = edge.length / (places * samples);
     const FaceSurface surface(face);
     const auto is_near = [&](const Vector3& point) {
-      return std::any_of(on_edge.begin(), on_edge.end(),
-                         [&](const Vector3& other) { return (point - other).norm() < width + spacing; });
+      return std::ranges::any_of(
+          on_edge, [&](const Vector3& other) { return (point - other).norm() < width + spacing; });
     };
     for (int i = 0; i <= samples; ++i) {
       for (int k = 0; k <= samples; ++k) {
@@ -285,7 +285,7 @@ class SliverFinder {
     sliver.face = id_;
     for (const int i : chain) {
       const LongEdge& edge = edges_[i];
-      const auto facing = std::find_if(other.begin(), other.end(), [&](int k) {
+      const auto facing = std::ranges::find_if(other, [&](int k) {
         return edges_[k].start == match.at(edge.end) && edges_[k].end == match.at(edge.start);
       });
       if (facing == other.end()) return std::nullopt;
@@ -320,9 +320,7 @@ std::vector<Sliver> find_slivers_of(const CadShape& shape, const FaceFlags& used
 /// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.
 std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<EdgeCut> cuts, double nearest) {
   auto result = std::make_shared<CadShape>(shape);
-  std::stable_sort(cuts.begin(), cuts.end(), [](const EdgeCut& a, const EdgeCut& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
-  });
+  std::ranges::stable_sort(cuts, {}, [](const EdgeCut& cut) { return std::pair(cut.edge, cut.parameter); });
   for (std::size_t i = 0; i < cuts.size();) {
     std::vector<double> parameters;
     Vector3 last = Vector3::Zero();

@@ -72,7 +72,7 @@ class SpikeFinder {
  private:
   bool may_narrow(const Coedge& coedge) const {
     const CadEdge& edge = shape_.edges[coedge.edge];
-    return !coedge.internal && has_ends(edge) && std::count(edge.faces.begin(), edge.faces.end(), id_) == 1;
+    return !coedge.internal && has_ends(edge) && std::ranges::count(edge.faces, id_) == 1;
   }
 
   void add(const Coedge& before, const Coedge& after) {

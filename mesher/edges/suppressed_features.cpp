@@ -54,14 +54,13 @@ class HarmFinder {
     const auto is_left = [&](const Coedge& coedge) { return !is_gone(id, coedge); };
     const auto is_open = [&](const Coedge& coedge) {
       const auto& faces = shape_.edges[coedge.edge].faces;
-      return std::any_of(faces.begin(), faces.end(), [&](FaceId other) {
-        return other != id && used_[other] && !tiny_.merged_faces[other];
-      });
+      return std::ranges::any_of(
+          faces, [&](FaceId other) { return other != id && used_[other] && !tiny_.merged_faces[other]; });
     };
     const auto edges = shape_.faces[id].edges();
-    return hole.ordered && std::none_of(hole.coedges.begin(), hole.coedges.end(), is_left) &&
-           std::none_of(hole.coedges.begin(), hole.coedges.end(), is_open) &&
-           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return tiny_.has(id, edge); });
+    return hole.ordered && std::ranges::none_of(hole.coedges, is_left) &&
+           std::ranges::none_of(hole.coedges, is_open) &&
+           std::ranges::any_of(edges, [&](EdgeId edge) { return tiny_.has(id, edge); });
   }
 
   /// Whether the rest of a loop is too small for elements.
@@ -85,9 +84,8 @@ class HarmFinder {
     const auto is_free = [&](const Coedge& coedge) {
       return !is_gone(id, coedge) && shape_.edges[coedge.edge].faces.size() == 1;
     };
-    if (std::none_of(wire.coedges.begin(), wire.coedges.end(), is_free) ||
-        std::none_of(wire.coedges.begin(), wire.coedges.end(),
-                     [&](const Coedge& c) { return is_gone(id, c); }))
+    if (std::ranges::none_of(wire.coedges, is_free) ||
+        std::ranges::none_of(wire.coedges, [&](const Coedge& c) { return is_gone(id, c); }))
       return false;
     std::vector<Vector3> loop;
     double length = 0;
@@ -145,8 +143,7 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
   hold(held, fine);
   for (const FaceId face : used.ids()) {
     const auto edges = shape.faces[face].edges();
-    slivers_.kept[face] =
-        std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) { return fine[edge] != 0; });
+    slivers_.kept[face] = std::ranges::all_of(edges, [&](EdgeId edge) { return fine[edge] != 0; });
   }
   choose(fine);
   while (keep_harmed()) {
@@ -158,9 +155,8 @@ void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine
   EdgeFlags ends(shape_.edges.size());
   for (const EdgeId id : ends.ids()) {
     const CadEdge& edge = shape_.edges[id];
-    ends[id] = std::any_of(held.begin(), held.end(), [&](VertexId vertex) {
-      return edge.first_vertex == vertex || edge.last_vertex == vertex;
-    });
+    ends[id] = std::ranges::any_of(
+        held, [&](VertexId vertex) { return edge.first_vertex == vertex || edge.last_vertex == vertex; });
     fine[id] |= ends[id];
   }
   for (const Sliver& sliver : slivers_.slivers) {
@@ -181,8 +177,7 @@ void SuppressedFeatures::choose(const EdgeFlags& fine) {
     if (!fine[id] && edge.is_used(used_) && has_ends(edge) && edge.length > 0 && is_small(edge, reach_))
       candidates.push_back(id);
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](EdgeId a, EdgeId b) { return shape_.edges[a].length < shape_.edges[b].length; });
+  std::ranges::stable_sort(candidates, {}, [&](EdgeId edge) { return shape_.edges[edge].length; });
   IdVector<VertexId, VertexId> cluster;
   IdVector<VertexId, std::vector<VertexId>> members;
   for (const VertexId vertex : shape_.vertices.ids()) {
@@ -196,11 +191,10 @@ void SuppressedFeatures::choose(const EdgeFlags& fine) {
       continue;
     }
     const auto fits = [&](VertexId p) {
-      return std::all_of(members[b].begin(), members[b].end(), [&](VertexId q) {
-        return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_;
-      });
+      return std::ranges::all_of(
+          members[b], [&](VertexId q) { return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_; });
     };
-    if (!std::all_of(members[a].begin(), members[a].end(), fits)) continue;
+    if (!std::ranges::all_of(members[a], fits)) continue;
     edges_[edge] = 1;
     for (const VertexId vertex : members[b]) cluster[vertex] = a;
     members[a].insert(members[a].end(), members[b].begin(), members[b].end());
@@ -258,7 +252,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
   };
   keep(face);
   for (const EdgeId id : shape_.faces[face].edges()) {
-    if (!edges.empty() && std::find(edges.begin(), edges.end(), id) == edges.end()) continue;
+    if (!edges.empty() && std::ranges::find(edges, id) == edges.end()) continue;
     const CadEdge& edge = shape_.edges[id];
     here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
     for (const FaceId other : edge.faces) keep(other);

@@ -116,9 +116,7 @@ class FeatureFinder {
       std::map<int, int> goes_to;
       for (const auto& [patch, neighbors] : shared)
         goes_to[patch] =
-            std::max_element(neighbors.begin(), neighbors.end(), [](const auto& x, const auto& y) {
-              return x.second < y.second;
-            })->first;
+            std::ranges::max_element(neighbors, {}, [](const auto& at) { return at.second; })->first;
       const auto joined = [&](int a, int b) {
         const auto found = goes_to.find(a);
         return found != goes_to.end() && found->second == b;
@@ -279,7 +277,7 @@ double even_spacing(const FeatureCurve& curve, double target) {
 }  // namespace
 
 Vector3 FeatureCurve::at(double length) const {
-  const auto above = std::upper_bound(along.begin(), along.end(), length);
+  const auto above = std::ranges::upper_bound(along, length);
   if (above == along.begin()) return places.front();
   if (above == along.end()) return places.back();
   const auto k = above - along.begin();

@@ -135,7 +135,7 @@ std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
   sides.reserve(4 * quads.size());
   for (const auto& quad : quads)
     for (int k = 0; k < 4; ++k) sides.emplace_back(quad[k], quad[(k + 1) & 3]);
-  std::sort(sides.begin(), sides.end());
+  std::ranges::sort(sides);
   std::vector<int> nodes;
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i] == sides[i - 1]) nodes.push_back(sides[i].first);
@@ -320,8 +320,7 @@ void refine_near(const std::vector<Vector3>& places, const std::vector<Vector3>&
 
 void tell_off_surface(const FaceMeshes& quads, std::vector<std::string>& notes) {
   std::ptrdiff_t off = 0;
-  for (const auto& piece : quads)
-    off += std::count_if(piece->off.begin(), piece->off.end(), [](double d) { return d > 0; });
+  for (const auto& piece : quads) off += std::ranges::count_if(piece->off, [](double d) { return d > 0; });
   if (off == 0) return;
   notes.push_back(fmt::format(
       "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
@@ -529,7 +528,7 @@ FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, 
   result.quads = std::move(quads.surface_mesh.mesh.quads);
   result.pole = std::move(quads.pole);
   result.nodes = std::move(quads.nodes);
-  if (std::count(moved.begin(), moved.end(), 1) == 0) return result;
+  if (std::ranges::count(moved, 1) == 0) return result;
   result.off.assign(moved.size(), 0);
   for (std::size_t v = 0; v < moved.size(); ++v)
     if (moved[v]) result.off[v] = (surface.nearest(result.uv[v], result.points[v]) - result.points[v]).norm();
@@ -595,8 +594,7 @@ void check_inverted(const ShellMesh& mesh, double least_side) {
 
 void tell_straight_sides(const ShellMesh& mesh, std::vector<std::string>& notes) {
   int first = static_cast<int>(mesh.points.size()), count = 0;
-  for (const auto& midsides : mesh.midsides)
-    first = std::min(first, *std::min_element(midsides.begin(), midsides.end()));
+  for (const auto& midsides : mesh.midsides) first = std::min(first, *std::ranges::min_element(midsides));
   double largest = 0;
   for (const ShellMesh::OffGeometry& off : mesh.off_geometry) {
     if (off.node < first) continue;
@@ -632,13 +630,12 @@ void keep_groups(const ShellMesh& input, const Model& model, std::vector<std::st
     ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
     const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
       for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (std::binary_search(group.entities.begin(), group.entities.end(), inputs(i)))
-          kept.entities.push_back(numbers[i]);
+        if (std::ranges::binary_search(group.entities, inputs(i))) kept.entities.push_back(numbers[i]);
     };
     if (group.dimension == 2) take([&](std::size_t i) { return model.input_faces[i]; }, model.face_numbers);
     if (group.dimension == 1)
       take([&](std::size_t i) { return model.network.curves[i].edge; }, model.edge_numbers);
-    std::sort(kept.entities.begin(), kept.entities.end());
+    std::ranges::sort(kept.entities);
     if (kept.entities.empty())
       lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
     else

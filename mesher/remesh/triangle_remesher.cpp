@@ -370,7 +370,7 @@ void split_long(Triangulation& t, const FeatureNetwork& network, const SurfaceLo
         edges.emplace_back(-ratio, e);
     }
     if (edges.empty()) return;
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     bool any = false;
     for (const auto& [ratio, e] : edges) {
       check();
@@ -407,7 +407,7 @@ void collapse_short(Triangulation& t, SparseCheck& check) {
     const double ratio = t.length(e) / t.size_at(e);
     if (passes(e) || ratio < shortest_share) edges.emplace_back(ratio, e);
   }
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   for (const auto& [ratio, e] : edges) {
     check();
     if (t.mesh.is_removed(e)) continue;
@@ -467,9 +467,7 @@ RemeshedTriangles result_of(const Triangulation& t) {
     const Vertex last = t.mesh.vertex(e, t.mesh.vertex(e, 0) == span.first ? 1 : 0);
     made.sides.push_back({{point(span.first), point(last)}, span.curve, span.low, span.high});
   }
-  std::sort(made.sides.begin(), made.sides.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.curve, a.from) < std::pair(b.curve, b.from);
-  });
+  std::ranges::sort(made.sides, {}, [](const auto& side) { return std::pair(side.curve, side.from); });
   return made;
 }
 
