@@ -9,6 +9,8 @@
 #include <queue>
 #include <set>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include "geometry/base/whole_number.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
@@ -67,6 +69,15 @@ class FeatureFinder {
         if (const Side side = make_side(t, i); twin(side) < side) visit(side);
   }
 
+  /// Visits the sides that the shape alone makes features, each with the patches beside it.
+  template <class Visit>
+  void each_fold(Visit&& visit) const {
+    each_side([&](Side side) {
+      if (marked(side) && !given(side))
+        visit(side, network_.patches[triangle_of(side)], network_.patches[triangle_of(twin(side))]);
+    });
+  }
+
   bool marked(Side side) const { return marked_[triangle_of(side)][index_of(side)] != 0; }
 
   void mark(Side side, char value) {
@@ -91,9 +102,7 @@ class FeatureFinder {
   }
 
   void number_patches() {
-    const auto twin_of = [&](Side side) {
-      return marked_[triangle_of(side)][index_of(side)] ? -1 : twins_[triangle_of(side)][index_of(side)];
-    };
+    const auto twin_of = [&](Side side) { return marked(side) ? -1 : twin(side); };
     network_.patch_count = number_pieces(twins_.size(), twin_of, network_.patches);
   }
 
@@ -105,9 +114,7 @@ class FeatureFinder {
       for (std::size_t t = 0; t < areas_.size(); ++t) area[network_.patches[t]] += areas_[t].norm();
       const double least = share * rules_.size * rules_.size;
       std::map<int, std::map<int, double>> shared;  // small patch -> neighbor -> length of folds between them
-      each_side([&](Side side) {
-        if (!marked(side) || given(side)) return;
-        const int a = network_.patches[triangle_of(side)], b = network_.patches[triangle_of(twin(side))];
+      each_fold([&](Side side, int a, int b) {
         if (a == b) return;
         if (area[a] < least) shared[a][b] += length(side);
         if (area[b] < least) shared[b][a] += length(side);
@@ -121,9 +128,7 @@ class FeatureFinder {
         const auto found = goes_to.find(a);
         return found != goes_to.end() && found->second == b;
       };
-      each_side([&](Side side) {
-        if (!marked(side) || given(side)) return;
-        const int a = network_.patches[triangle_of(side)], b = network_.patches[triangle_of(twin(side))];
+      each_fold([&](Side side, int a, int b) {
         if (joined(a, b) || joined(b, a)) mark(side, 0);
       });
       number_patches();
@@ -132,26 +137,16 @@ class FeatureFinder {
 
   /// Removes folds that have the same face on both sides and are connected over less than four elements.
   void drop_short_creases() {
-    std::map<int, int> parent;  // by point
-    const auto root = [&](int v) {
-      while (parent.at(v) != v) v = parent[v] = parent.at(parent.at(v));
-      return v;
-    };
-    const auto inner = [&](Side side) {
-      return marked(side) && !given(side) &&
-             network_.patches[triangle_of(side)] == network_.patches[triangle_of(twin(side))];
-    };
-    each_side([&](Side side) {
-      if (!inner(side)) return;
-      for (const int v : {from(side), to(side)}) parent.try_emplace(v, v);
-      parent[root(from(side))] = root(to(side));
+    boost::disjoint_sets_with_storage<> creases(surface_.points.size());  // of points
+    each_fold([&](Side side, int a, int b) {
+      if (a == b) creases.union_set(from(side), to(side));
     });
-    std::map<int, double> total;
-    each_side([&](Side side) {
-      if (inner(side)) total[root(from(side))] += length(side);
+    std::map<std::size_t, double> total;
+    each_fold([&](Side side, int a, int b) {
+      if (a == b) total[creases.find_set(from(side))] += length(side);
     });
-    each_side([&](Side side) {
-      if (inner(side) && total[root(from(side))] < 4 * rules_.size) mark(side, 0);
+    each_fold([&](Side side, int a, int b) {
+      if (a == b && total[creases.find_set(from(side))] < 4 * rules_.size) mark(side, 0);
     });
   }
 

@@ -149,7 +149,8 @@ struct Model {
   Surface surface;
   double least_side = 0;  // shortest side that a quad may have
   FeatureNetwork network;
-  std::vector<int> face_numbers, edge_numbers, input_faces;  // by patch, curve, patch
+  std::vector<int> input_faces, face_numbers;  // by patch
+  std::vector<int> input_edges, edge_numbers;  // by curve
 };
 
 /// The sides of the surface that are segments of the input. \param node point of each of its nodes
@@ -209,9 +210,10 @@ Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vect
           std::move(surface),
           least_side,
           std::move(network),
+          std::move(face_of_patch),
           std::move(face_numbers),
-          std::move(edge_numbers),
-          std::move(face_of_patch)};
+          std::move(edge_of_curve),
+          std::move(edge_numbers)};
 }
 
 /// The longest sides of triangles with which each piece keeps its shape. Every piece gets at least four
@@ -578,18 +580,15 @@ void check_doubled(const FaceMeshes& quads, const ShellGeometry& geometry) {
 }
 
 void check_inverted(const ShellMesh& mesh, double least_side) {
-  int count = 0;
-  std::size_t first = 0;
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    if (!is_spoiled(mesh.points, mesh.quads[q], least_side)) continue;
-    if (count++ == 0) first = q;
-  }
-  if (count == 0) return;
-  const int face = mesh.quad_faces[first];
+  std::vector<std::size_t> spoiled;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    if (is_spoiled(mesh.points, mesh.quads[q], least_side)) spoiled.push_back(q);
+  if (spoiled.empty()) return;
+  const int face = mesh.quad_faces[spoiled.front()];
   throw failure(fmt::format("Face{}", face),
                 fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
                             "{}: try a smaller `size`, or another feature angle",
-                            count, face, place_text(mesh.points[mesh.quads[first][0]])));
+                            spoiled.size(), face, place_text(mesh.points[mesh.quads[spoiled.front()][0]])));
 }
 
 void tell_straight_sides(const ShellMesh& mesh, std::vector<std::string>& notes) {
@@ -628,13 +627,12 @@ void keep_groups(const ShellMesh& input, const Model& model, std::vector<std::st
   std::vector<std::string> lost;
   for (const ShellMesh::Group& group : input.groups) {
     ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
-    const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
+    const auto take = [&](const std::vector<int>& inputs, const std::vector<int>& numbers) {
       for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (std::ranges::binary_search(group.entities, inputs(i))) kept.entities.push_back(numbers[i]);
+        if (std::ranges::binary_search(group.entities, inputs[i])) kept.entities.push_back(numbers[i]);
     };
-    if (group.dimension == 2) take([&](std::size_t i) { return model.input_faces[i]; }, model.face_numbers);
-    if (group.dimension == 1)
-      take([&](std::size_t i) { return model.network.curves[i].edge; }, model.edge_numbers);
+    if (group.dimension == 2) take(model.input_faces, model.face_numbers);
+    if (group.dimension == 1) take(model.input_edges, model.edge_numbers);
     std::ranges::sort(kept.entities);
     if (kept.entities.empty())
       lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
