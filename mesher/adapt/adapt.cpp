@@ -62,18 +62,10 @@ class SizePlan {
         now_(sizes_of(mesh)),
         even_(even_sizes(mesh, estimate)),
         singular_(singular_corners(mesh, estimate)),
-        at_points_(mesh.points.size(), 0) {
-    std::vector<double> quads(mesh.points.size(), 0);
-    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-      for (const int node : mesh.quads[quad]) {
-        at_points_[node] += now_[quad];
-        ++quads[node];
-      }
-    }
+        at_points_(means_at_nodes(mesh, [&](Side corner) { return now_[element_of(corner)]; })) {
     double sum = 0, corners = 0;
-    for (std::size_t node = 0; node < quads.size(); ++node) {
-      if (quads[node] == 0) continue;
-      at_points_[node] /= quads[node];
+    for (std::size_t node = 0; node < at_points_.size(); ++node) {
+      if (at_points_[node] == 0) continue;
       sum += std::log(at_points_[node] / even_[node]);
       ++corners;
     }

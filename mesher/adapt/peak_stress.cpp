@@ -40,17 +40,15 @@ class PeakFinder {
  public:
   PeakFinder(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses)
       : mesh_(mesh),
-        sizes_(sizes_of(mesh)),
         corners_(corners_by_node(mesh.points.size(), mesh.quads)),
-        stress_(mesh.points.size(), 0) {
-    for (std::size_t node = 0; node < stress_.size(); ++node) {
-      for (const Side corner : corners_[node])
-        stress_[node] += stress_at_corner(stresses[element_of(corner)], index_of(corner));
-      if (!corners_[node].empty()) stress_[node] /= static_cast<double>(corners_[node].size());
-    }
-  }
+        stress_(means_at_nodes(mesh, [&](Side corner) {
+          return stress_at_corner(stresses[element_of(corner)], index_of(corner));
+        })) {}
 
   std::vector<StressPeak> find() const {
+    const std::vector<double> of_quads = sizes_of(mesh_);
+    const std::vector<double> sizes =
+        means_at_nodes(mesh_, [&](Side corner) { return of_quads[element_of(corner)]; });
     constexpr double least_share = 0.3, apart = 3;
     constexpr std::size_t max_peaks = 10;
     const double largest = *std::ranges::max_element(stress_);
@@ -63,7 +61,7 @@ class PeakFinder {
     std::vector<StressPeak> peaks;
     for (const std::size_t node : order) {
       const Vector3& at = mesh_.points[node];
-      const double size = size_at(node);
+      const double size = sizes[node];
       const bool is_apart = std::ranges::none_of(peaks, [&](const StressPeak& other) {
         return (other.at - at).norm() < apart * std::max(size, other.size);
       });
@@ -79,12 +77,6 @@ class PeakFinder {
       for (const int other : mesh_.quads[element_of(corner)])
         if (stress_[other] > stress_[node]) return false;
     return true;
-  }
-
-  double size_at(std::size_t node) const {
-    double sum = 0;
-    for (const Side corner : corners_[node]) sum += sizes_[element_of(corner)];
-    return sum / static_cast<double>(corners_[node].size());
   }
 
   /// Whether the node lies on the rim, and the mesh fills more than 240 degrees around it. Rims of round
@@ -106,7 +98,6 @@ class PeakFinder {
   }
 
   const ShellMesh& mesh_;
-  std::vector<double> sizes_;
   Rows<Side> corners_;
   std::vector<double> stress_;  // (points) 0 where no quad has a corner
 };
