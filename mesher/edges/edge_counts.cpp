@@ -28,8 +28,7 @@ constexpr double largest_ratio_of_sums = 1.3;
 constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 bool has_sums(const FaceSides& sides) {
-  return std::ranges::any_of(
-      sides.facing, [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
+  return std::ranges::any_of(sides.facing, &FacingPair::has_sum);
 }
 
 bool is_on(EdgeId edge, FaceSides sides) {
@@ -70,8 +69,10 @@ bool is_far_off(const FixedChords& chords, const IdVector<EdgeId, double>& effec
   add(pair.first, first);
   add(pair.second, second);
   const auto [low, high] = std::minmax({first, second});
-  const bool is_sum = pair.first.size() + pair.second.size() > 2;
-  return high > (has_fixed ? largest_fixed_ratio : is_sum ? largest_ratio_of_sums : largest_ratio) * low;
+  return high > (has_fixed        ? largest_fixed_ratio
+                 : pair.has_sum() ? largest_ratio_of_sums
+                                  : largest_ratio) *
+                    low;
 }
 
 /// Ties edges with the same nodes, and edges that face each other. \param sides see choose_counts()
@@ -96,8 +97,7 @@ FixedChords tie_chords(const CadShape& shape, const CountTargets& targets, const
     bool fits = std::ranges::none_of(
         facing, [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
     for (const FacingPair& pair : facing) {
-      if (fits && pair.first.size() == 1 && pair.second.size() == 1)
-        fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
+      if (fits && !pair.has_sum()) fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
     }
     if (!fits) sides[face].drop_facing();
   }

@@ -38,18 +38,15 @@ int least_segments(bool closed, double turning, bool shares_both_ends, bool inne
 
 /// Edges that share both end vertices with another edge: with one segment each, the two would coincide.
 EdgeFlags find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
-  std::map<std::pair<VertexId, VertexId>, int> count;
-  const auto key = [&](const CadEdge& e) -> std::pair<VertexId, VertexId> {
-    return std::minmax({tiny.end(e.first_vertex), tiny.end(e.last_vertex)});
-  };
-  EdgeFlags shared(shape.edges.size());
-  const auto is_open = [&](EdgeId i) {
-    return !shape.edges[i].degenerate && !tiny.closed(shape.edges[i]) && tiny.edges[i] == i;
-  };
-  for (const EdgeId i : shared.ids()) {
-    if (is_open(i)) ++count[key(shape.edges[i])];
+  std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> between;  // ends -> edges
+  for (const EdgeId id : shape.edges.ids()) {
+    const CadEdge& edge = shape.edges[id];
+    if (edge.degenerate || tiny.closed(edge) || tiny.edges[id] != id) continue;
+    between[std::minmax({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)})].push_back(id);
   }
-  for (const EdgeId i : shared.ids()) shared[i] = is_open(i) && count[key(shape.edges[i])] > 1;
+  EdgeFlags shared(shape.edges.size());
+  for (const auto& [ends, edges] : between)
+    for (const EdgeId edge : edges) shared[edge] = edges.size() > 1;
   return shared;
 }
 
@@ -230,16 +227,6 @@ class TargetFinder {
   CountTargets& targets_ = demand_.targets;
 };
 
-EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan,
-                             const IdVector<EdgeId, int>& counts) {
-  EdgeShares shares(counts.size());
-  for (const EdgeId i : counts.ids()) {
-    if (!plan.prescribes(i) || counts[i] == 0) continue;
-    shares[i] = PrescribedEdge::make(shape.edges[i], counts[i], plan.prescribed[i]->spacing).shares;
-  }
-  return shares;
-}
-
 /// The numbers of segments, and where nodes lie on the edges.
 struct Division {
   EdgeCounts counts;
@@ -252,16 +239,17 @@ Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const Edg
   Division result{choose_counts(shape, demand.targets, plan.tiny, sides), {}};
   const auto& [counts, chords] = result.counts;
   PlannedSpacing& spacing = result.spacing;
-  spacing.shares =
-      space_chords(shape, sides, chords, demand.tables, counts, prescribed_shares(shape, plan, counts));
   spacing.divided.resize(counts.size());
   spacing.kept.resize(counts.size());
+  EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
-    const EdgeId chord = chords.of(i);
     if (!plan.prescribes(i)) continue;
-    spacing.divided[chord] = 1;
-    if (!plan.prescribed[i]->shares.empty()) spacing.kept[chord] = 1;
+    const PrescribedEdge& prescribed = *plan.prescribed[i];
+    spacing.divided[chords.of(i)] = 1;
+    if (!prescribed.shares.empty()) spacing.kept[chords.of(i)] = 1;
+    if (counts[i] > 0) shares[i] = PrescribedEdge::make(shape.edges[i], counts[i], prescribed.spacing).shares;
   }
+  spacing.shares = space_chords(shape, sides, chords, demand.tables, counts, shares);
   return result;
 }
 
@@ -325,16 +313,17 @@ class NodePlacer {
 
   /// Vertices come first, so that their numbers do not depend on the counts.
   void place_vertices(const FaceFlags& used) {
+    const auto place = [&](VertexId vertex) {
+      if (vertex.exists()) vertex_node(vertex, Vector3::Zero());
+    };
     for (const EdgeId i : shape_.edges.ids()) {
-      const CadEdge& edge = shape_.edges[i];
       if (!demand_.used[i]) continue;
-      if (edge.first_vertex.exists()) vertex_node(edge.first_vertex, Vector3::Zero());
-      if (edge.last_vertex.exists()) vertex_node(edge.last_vertex, Vector3::Zero());
+      place(shape_.edges[i].first_vertex);
+      place(shape_.edges[i].last_vertex);
     }
     for (const FaceId face : shape_.faces.ids()) {
       if (!used[face]) continue;
-      for (const InnerVertex& point : shape_.faces[face].inner_vertices)
-        vertex_node(point.vertex, Vector3::Zero());
+      for (const InnerVertex& point : shape_.faces[face].inner_vertices) place(point.vertex);
     }
   }
 
@@ -342,7 +331,6 @@ class NodePlacer {
     const CadEdge& edge = shape_.edges[i];
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result_.edges[i];
-    nodes.stride = plan_.stride_of(edge, result_.stride);
     const CountTable& table = demand_.tables[i];
     const std::vector<double>& shares = division_.spacing.shares[i];
     const int segments = division_.counts.counts[i];

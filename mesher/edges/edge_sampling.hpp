@@ -24,7 +24,6 @@ struct BoundaryNodes {
   struct Edge {
     std::vector<double> parameters;  ///< one per node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
-    int stride = 1;                  ///< segments for each one of the mesh that is recombined
     bool divided = false;            ///< users prescribe the number of segments on its chord
     bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
     bool borrows = false;            ///< its nodes are those of another edge (TinyFeatures)

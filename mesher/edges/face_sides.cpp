@@ -117,11 +117,8 @@ class SideFinder {
 
   /// Finds outlines with four corners outside and none at the holes.
   void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
-    const auto outer = std::ranges::find_if(walks, [](const Walk& walk) { return !is_smooth(walk); });
-    if (outer == walks.end()) return;
-    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
-      if (walk != outer && !is_smooth(*walk)) return;
-    }
+    if (std::ranges::count_if(walks, is_smooth) != std::ssize(walks) - 1) return;
+    const auto outer = std::ranges::find_if_not(walks, is_smooth);
     FaceSides found;
     take_corners(*outer, found);
     if (found.kind != GridKind::four) return;

@@ -20,6 +20,8 @@ using FaceSide = std::vector<SideEdge>;
 struct FacingPair {
   FaceSide first, second;
   FaceSide edges() const;  ///< of both
+  /// Whether a side has several edges, whose counts have a sum.
+  bool has_sum() const { return first.size() + second.size() > 2; }
 };
 
 /// The outlines that grids fill. Only this module, which decides, and face_grid.cpp, which makes the grids,

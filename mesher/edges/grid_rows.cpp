@@ -17,7 +17,7 @@ constexpr double largest_row_ratio = 4;
 EdgeId opposite(const FaceSides& sides, EdgeId edge) {
   if (!sides.is_filled()) return {};
   for (const FacingPair& pair : sides.facing) {
-    if (pair.first.size() != 1 || pair.second.size() != 1) continue;
+    if (pair.has_sum()) continue;
     if (pair.first[0].edge == edge) return pair.second[0].edge;
     if (pair.second[0].edge == edge) return pair.first[0].edge;
   }

@@ -96,9 +96,10 @@ struct TubeFinder {
   }
 };
 
-std::vector<int> range(int from, int to) {
+/// The indices from one up to another in a ring of `n`.
+std::vector<int> range(int from, int to, int n) {
   std::vector<int> result;
-  for (int i = from; i < to; ++i) result.push_back(i);
+  for (int i = from; i < to; ++i) result.push_back(i % n);
   return result;
 }
 
@@ -123,13 +124,11 @@ class SliverFinder {
     const int n = static_cast<int>(edges_.size());
     if (face.wires.size() == 2) {
       if (first_wire == edges_.size()) return std::nullopt;
-      return zip(range(0, static_cast<int>(first_wire)), range(static_cast<int>(first_wire), n), cuts);
+      return zip(range(0, static_cast<int>(first_wire), n), range(static_cast<int>(first_wire), n, n), cuts);
     }
     for (int first = 0; first < n; ++first) {
       for (int second = first + 1; second < n; ++second) {
-        std::vector<int> other = range(second, n);
-        for (int k = 0; k < first; ++k) other.push_back(k);
-        if (auto sliver = zip(range(first, second), other, cuts)) return sliver;
+        if (auto sliver = zip(range(first, second, n), range(second, n + first, n), cuts)) return sliver;
         if (!cuts.empty()) return std::nullopt;
       }
     }
@@ -204,15 +203,12 @@ class SliverFinder {
 
   /// Whether the middle of the longest edge is near another one.
   bool may_be_narrow() const {
-    int longest = 0;
-    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
-      if (shape_.edges[edges_[i].edge].length > shape_.edges[edges_[longest].edge].length) longest = i;
-    }
-    const Vector3 middle = edges_[longest].points[edges_[longest].points.size() / 2];
-    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
-      if (i != longest && nearest(middle, {i}).distance < width_ + edges_[i].slack) return true;
-    }
-    return false;
+    const auto longest = std::ranges::max_element(
+        edges_, {}, [&](const LongEdge& edge) { return shape_.edges[edge.edge].length; });
+    const Vector3 middle = longest->points[longest->points.size() / 2];
+    return std::ranges::any_of(edges_, [&](const LongEdge& edge) {
+      return &edge != &*longest && edge.nearest(middle).distance < width_ + edge.slack;
+    });
   }
 
   double length_of(const std::vector<int>& chain) const {
