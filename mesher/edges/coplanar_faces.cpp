@@ -169,9 +169,7 @@ class CoplanarFaces {
 
   bool stays(EdgeId id) const {
     const CadEdge& edge = shape_.edges[id];
-    return edge.faces.size() != 2 || edge.faces[0] == edge.faces[1] || sizing_.names_edge(edge.number) ||
-           sizing_.names_vertex(edge.first_vertex.number()) ||
-           sizing_.names_vertex(edge.last_vertex.number());
+    return edge.faces.size() != 2 || edge.faces[0] == edge.faces[1] || is_named(edge, sizing_);
   }
 
   /// The edges between a face and those of a group.

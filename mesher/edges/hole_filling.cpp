@@ -122,16 +122,10 @@ class HoleFinder {
 
   /// \return false if the loop is larger than the holes to fill, or if something that stays lies on it.
   bool measure(const CadFace& host, const CadWire& wire, Loop& loop) const {
-    std::vector<Vector3> points;
-    double length = 0;
-    for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      if (stays(edge)) return false;
-      length += edge.length;
-      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
-      points.insert(points.end(), along.begin(), along.end() - 1);
-    }
-    if (length > 2 * std::numbers::pi * diameter_) return false;  // of any outline
+    if (std::ranges::any_of(wire.coedges, [&](const Coedge& coedge) { return stays(coedge.edge); }))
+      return false;
+    if (length_of(shape_, wire) > 2 * std::numbers::pi * diameter_) return false;  // of any outline
+    const std::vector<Vector3> points = points_around(shape_, wire, samples);
     for (const Vector3& a : points) {
       for (const Vector3& b : points) loop.diameter = std::max(loop.diameter, (a - b).norm());
     }
@@ -144,16 +138,10 @@ class HoleFinder {
     return area.norm() > 0;
   }
 
-  /// Whether users name the edge or one of its vertices.
-  bool stays(const CadEdge& edge) const {
-    return sizing_.names_edge(edge.number) || sizing_.names_vertex(edge.first_vertex.number()) ||
-           sizing_.names_vertex(edge.last_vertex.number());
-  }
-
+  bool stays(EdgeId edge) const { return is_named(shape_.edges[edge], sizing_); }
   bool stays(FaceId face) const {
-    const auto edges = shape_.faces[face].edges();
     return sizing_.names_face(face.number()) ||
-           std::ranges::any_of(edges, [&](EdgeId edge) { return stays(shape_.edges[edge]); });
+           std::ranges::any_of(shape_.faces[face].edges(), [&](EdgeId edge) { return stays(edge); });
   }
 
   /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.

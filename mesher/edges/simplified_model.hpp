@@ -5,6 +5,7 @@
 
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/ids.hpp"
+#include "geometry/sizing/sizing_options.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
@@ -13,6 +14,12 @@ namespace quadrille {
 /// An edge between two faces that are meshed as one. \param pieces see points_along()
 inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge, int pieces) {
   return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)};
+}
+
+/// Whether a setting names an edge or one of its vertices.
+inline bool is_named(const CadEdge& edge, const SizingOptions& sizing) {
+  return sizing.names_edge(edge.number) || sizing.names_vertex(edge.first_vertex.number()) ||
+         sizing.names_vertex(edge.last_vertex.number());
 }
 
 /// A model without what need not be meshed. Faces, edges and vertices keep their numbers.

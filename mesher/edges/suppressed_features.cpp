@@ -87,15 +87,8 @@ class HarmFinder {
     if (std::ranges::none_of(wire.coedges, is_free) ||
         std::ranges::none_of(wire.coedges, [&](const Coedge& c) { return is_gone(id, c); }))
       return false;
-    std::vector<Vector3> loop;
-    double length = 0;
-    for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
-      loop.insert(loop.end(), along.begin(), along.end() - 1);
-      length += edge.length;
-    }
-    return vector_area(loop).norm() < 0.5 * length * hardly * reach_;
+    const double area = vector_area(points_around(shape_, wire, samples)).norm();
+    return area < 0.5 * length_of(shape_, wire) * hardly * reach_;
   }
 
   /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one. Two

@@ -224,6 +224,21 @@ std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward)
   return points;
 }
 
+std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire, int pieces) {
+  std::vector<Vector3> points;
+  for (const Coedge& coedge : wire.coedges) {
+    const std::vector<Vector3> along = points_along(shape.edges[coedge.edge], pieces, coedge.forward);
+    points.insert(points.end(), along.begin(), along.end() - 1);
+  }
+  return points;
+}
+
+double length_of(const CadShape& shape, const CadWire& wire) {
+  double length = 0;
+  for (const Coedge& coedge : wire.coedges) length += shape.edges[coedge.edge].length;
+  return length;
+}
+
 double distance_to_line(const Vector3& point, const std::vector<Vector3>& line) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < line.size(); ++i)
