@@ -1,6 +1,6 @@
 /// Joins coplanar faces: collects the faces around each one, and makes one outline of theirs.
 
-#include "mesher/edges/coplanar_faces.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepTools.hxx>

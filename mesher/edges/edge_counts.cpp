@@ -16,7 +16,6 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_balance.hpp"
 #include "mesher/edges/parity.hpp"
-#include "mesher/edges/single_segments.hpp"
 
 namespace quadrille {
 

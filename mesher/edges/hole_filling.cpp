@@ -1,7 +1,7 @@
 /// Leaves out small holes: finds the loops inside faces, and the faces that such loops alone connect with the
 /// rest.
 
-#include "mesher/edges/hole_filling.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>

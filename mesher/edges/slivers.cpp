@@ -12,7 +12,6 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_division.hpp"
-#include "mesher/edges/spikes.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {

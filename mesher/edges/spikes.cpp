@@ -1,7 +1,7 @@
 /// Walks both edges out of a narrow corner to where they are one width apart, or to where the shorter one
 /// ends.
 
-#include "mesher/edges/spikes.hpp"
+#include "mesher/edges/slivers.hpp"
 
 #include <algorithm>
 #include <map>
