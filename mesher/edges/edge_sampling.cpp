@@ -90,7 +90,7 @@ double least_size(const SizingField& field, const SamplingPlan& plan, EdgeId edg
 class TargetFinder {
  public:
   TargetFinder(const CadShape& shape, const SizingField& field, int stride, const SamplingPlan& plan,
-               ExecutionContext& context, EdgeTables* known)
+               ExecutionContext& context, EdgeTables& known)
       : shape_(shape),
         field_(field),
         stride_(stride),
@@ -103,6 +103,7 @@ class TargetFinder {
     demand_.used = find_used_edges(shape_, used, plan_.tiny);
     const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
     const EdgeFlags inner = find_inner_edges(shape_);
+    known_.resize(n_);
     demand_.tables.resize(n_);
     targets_.stride = stride_;
     targets_.check = [&context = context_] { context.check(); };
@@ -118,7 +119,7 @@ class TargetFinder {
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !demand_.used[i] || plan_.tiny.collapsed_edges[i]) continue;
       demand_.tables[i] = table_of(i);
-      const int stride = plan_.stride_of(edge, stride_);
+      const int stride = edge.is_used(plan_.subdivided) ? 2 : stride_;
       bool is_finer = false;
       for (const EdgeStretch& part : plan_.finer) {
         if (part.edge != i) continue;
@@ -181,14 +182,12 @@ class TargetFinder {
   }
 
   CountTable table_of(EdgeId id) {
-    const auto make = [&] {
+    CountTable& known = known_[id];
+    if (known.counts.empty()) {
       SizingField::Sampler sampler(field_, shape_.edges[id]);
-      return tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
-    };
-    if (known_ == nullptr) return make();
-    known_->resize(n_);
-    if ((*known_)[id].counts.empty()) (*known_)[id] = make();
-    return (*known_)[id];
+      known = tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
+    }
+    return known;
   }
 
   /// How many segments a remedy may ask for on a part of an edge.
@@ -221,7 +220,7 @@ class TargetFinder {
   const int stride_;
   const SamplingPlan& plan_;
   ExecutionContext& context_;
-  EdgeTables* known_;    // may be null
+  EdgeTables& known_;
   const std::size_t n_;  // edges
   EdgeDemand demand_;
   CountTargets& targets_ = demand_.targets;
@@ -385,7 +384,9 @@ SamplingPlan::SamplingPlan(const CadShape& shape, EdgeFlags below)
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
                            const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known) {
-  EdgeDemand demand = TargetFinder(shape, field, stride, plan, context, known).run(used);
+  EdgeTables unknown;
+  EdgeDemand demand =
+      TargetFinder(shape, field, stride, plan, context, known != nullptr ? *known : unknown).run(used);
   const FaceOutlines found = find_face_sides(shape, used, plan.tiny, demand.targets.wanted);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);

@@ -84,8 +84,6 @@ struct SamplingPlan {
   bool along_chord(EdgeId id, const CadEdge& edge) const {
     return ignore_curvature[id] && !tiny.closed(edge);
   }
-  /// Segments of an edge for each one of the mesh that is recombined. \param all see BoundaryNodes::stride
-  int stride_of(const CadEdge& edge, int all) const { return all == 1 && edge.is_used(subdivided) ? 2 : all; }
 };
 
 /// The tables of edges by the sizing field alone, as far as they are known.

@@ -12,6 +12,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
 namespace quadrille {
@@ -330,10 +331,9 @@ std::vector<std::vector<double>> place_on_curves(const FeatureNetwork& network,
     }
     const int count = std::max(curve.closed() ? 3 : 1, round_to_int(sum.back()));
     std::vector<double>& nodes = result.emplace_back(1, 0.0);
-    for (int n = 1, k = 0; n < count; ++n) {
-      const double wanted = sum.back() * n / count;
-      while (sum[k + 1] < wanted) ++k;
-      nodes.push_back((k + (wanted - sum[k]) / (sum[k + 1] - sum[k])) / steps * curve.length());
+    for (int n = 1; n < count; ++n) {
+      const auto [step, share] = place_in(sum, sum.back() * n / count);
+      nodes.push_back((static_cast<double>(step) + share) / steps * curve.length());
     }
     nodes.push_back(curve.length());
   }

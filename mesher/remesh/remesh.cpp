@@ -373,21 +373,20 @@ class PieceCutter {
       FaceTriangulation& piece = pieces[p.index()];
       const std::vector<int>& triangles = members[p.index()];
       const int patch = result_.patches[p] = triangles_.mesh.tags[triangles.front()];
+      // Returns whether the point had no number.
       const auto number = [&](int v) {
-        if (local[v] >= 0) return;
+        if (local[v] >= 0) return false;
         local[v] = static_cast<int>(piece.mesh.points.size());
         piece.mesh.points.push_back(cut.mesh.points[v]);
+        return true;
       };
       std::vector<int> boundary;
       for (const int t : triangles) {
         for (int i = 0; i < 3; ++i) {
           if (inner[t][i]) continue;
           const int a = cut.mesh.triangles[t][i], b = cut.mesh.triangles[t][next_index(i)];
-          for (const int v : {a, b}) {
-            if (local[v] >= 0) continue;
-            number(v);
-            boundary.push_back(v);
-          }
+          for (const int v : {a, b})
+            if (number(v)) boundary.push_back(v);
           const int side = side_index(side_of, cut.original[a], cut.original[b], patch);
           FaceBoundary::Segment& segment = piece.segments.emplace_back();
           segment.a = local[a];
