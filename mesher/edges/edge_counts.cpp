@@ -15,7 +15,6 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_balance.hpp"
-#include "mesher/edges/parity.hpp"
 
 namespace quadrille {
 
@@ -215,15 +214,11 @@ class CountProblem {
   /// Chords that only grids use, and that sums connect only to other such chords, are counted in segments of
   /// the final mesh: nothing there is cut in two.
   void choose_units() {
-    boost::disjoint_sets_with_storage<> groups(problem_.variables.size());
-    std::vector<int> first(problem_.rules.size(), -1);
-    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
-      for (const auto& [node, coefficient] : problem_.variables[i].terms) {
-        if (first[node] < 0) first[node] = static_cast<int>(i);
-        groups.union_set(i, static_cast<std::size_t>(first[node]));
-      }
-    }
-    std::vector<int> units(problem_.variables.size(), 1);
+    const std::size_t chords = problem_.variables.size(), all = chords + problem_.rules.size();
+    boost::disjoint_sets_with_storage<> groups(all);  // of chords, then nodes
+    for (std::size_t i = 0; i < chords; ++i)
+      for (const auto& [node, coefficient] : problem_.variables[i].terms) groups.union_set(i, chords + node);
+    std::vector<int> units(all, 1);
     const auto unit_of = [&](EdgeId chord) -> int& {
       return units[groups.find_set(static_cast<std::size_t>(chord.index()))];
     };

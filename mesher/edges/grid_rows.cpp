@@ -1,6 +1,6 @@
 /// Follows prescribed divisions from edge to opposite edge.
 
-#include "mesher/edges/grid_rows.hpp"
+#include "mesher/edges/chords.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 /// A T-join (Edmonds & Johnson, Matching, Euler tours and the Chinese postman, 1973), approximated by a
 /// minimum-weight basis over GF(2), which holds for edges of any number of faces.
 
-#include "mesher/edges/parity.hpp"
+#include "mesher/edges/count_balance.hpp"
 
 #include <algorithm>
 #include <cmath>

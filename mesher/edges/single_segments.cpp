@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "mesher/edges/parity.hpp"
+#include "mesher/edges/count_balance.hpp"
 
 namespace quadrille {
 
