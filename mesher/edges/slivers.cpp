@@ -25,9 +25,9 @@ constexpr std::size_t most_edges = 40;
 struct LongEdge : CurveSamples {
   EdgeId edge;
   bool forward = true;
-  VertexId from, to;       // vertices, in the direction of the wire
-  int start = 0, end = 0;  // junctions
-  double slack = 0;        // how far the curve may be from the line through the samples
+  VertexId from, to;  // vertices, in the direction of the wire
+  int next = 0;       // index of the long edge that follows in the wire
+  double slack = 0;   // how far the curve may be from the line through the samples
 };
 
 /// The place of a chain that is nearest to a point.
@@ -102,7 +102,7 @@ std::vector<int> range(int from, int to, int n) {
   return result;
 }
 
-/// Finds out whether a face is narrow between chains of its long edges.
+/// Finds out whether a face is narrow between chains of its long edges. Junction i lies before long edge i.
 class SliverFinder {
  public:
   SliverFinder(const CadShape& shape, const FaceFlags& used, double width, FaceId id)
@@ -135,10 +135,9 @@ class SliverFinder {
   }
 
  private:
-  /// Adds the long edges of a wire. Junction i lies before long edge i.
   bool add_wire(const CadWire& wire) {
     if (!wire.ordered || wire.coedges.size() > most_edges) return false;
-    const int first = static_cast<int>(edges_.size());
+    const std::size_t first = edges_.size();
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge];
       if (coedge.internal || !has_ends(edge)) return false;
@@ -148,13 +147,11 @@ class SliverFinder {
       added.forward = coedge.forward;
       added.from = shape_.start_of(coedge);
       added.to = shape_.end_of(coedge);
+      added.next = static_cast<int>(edges_.size());
     }
-    const int n = static_cast<int>(edges_.size());
-    for (int i = first; i < n; ++i) {
-      edges_[i].start = i;
-      edges_[i].end = i + 1 < n ? i + 1 : first;
-    }
-    return n > first;
+    if (edges_.size() == first) return false;
+    edges_.back().next = static_cast<int>(first);
+    return true;
   }
 
   /// Whether no edge is a seam and at least one of them belongs to another face.
@@ -235,10 +232,8 @@ class SliverFinder {
     if (std::abs(length_of(chain) - length_of(other)) > 0.2 * length + 2 * width_) return std::nullopt;
     if (!lies_along(chain, other, reach) || !lies_along(other, chain, reach)) return std::nullopt;
     std::map<int, int> match;  // junctions of the two chains, both ways
-    const bool is_ring = edges_[chain.back()].end == edges_[chain.front()].start;
-    if (!is_ring) {
-      for (const int end : {edges_[chain.front()].start, edges_[chain.back()].end}) match[end] = end;
-    }
+    const int start = chain.front(), end = edges_[chain.back()].next;
+    if (start != end) match = {{start, start}, {end, end}};  // not a ring
     std::vector<EdgeCut> found;
     if (!match_junctions(chain, other, match, found) || !match_junctions(other, chain, match, found))
       return std::nullopt;
@@ -252,17 +247,16 @@ class SliverFinder {
   /// Finds the junction of the other chain that faces each junction, or the place to divide an edge at.
   bool match_junctions(const std::vector<int>& chain, const std::vector<int>& other,
                        std::map<int, int>& match, std::vector<EdgeCut>& cuts) const {
-    for (const int i : chain) {
-      const int junction = edges_[i].start;
+    for (const int junction : chain) {
       if (match.contains(junction)) continue;
-      const Vector3& p = edges_[i].points.front();
+      const Vector3& p = edges_[junction].points.front();
       const Nearest place = nearest(p, other);
       if (!(place.distance < width_)) return false;
       const LongEdge& edge = edges_[place.edge];
       const double to_start = (edge.points.front() - place.point).norm(),
                    to_end = (edge.points.back() - place.point).norm();
       if (std::min(to_start, to_end) < width_) {
-        const int there = to_start < to_end ? edge.start : edge.end;
+        const int there = to_start < to_end ? place.edge : edge.next;
         if (match.contains(there)) return false;
         match[junction] = there;
         match[there] = junction;
@@ -280,17 +274,15 @@ class SliverFinder {
     sliver.face = id_;
     for (const int i : chain) {
       const LongEdge& edge = edges_[i];
-      const auto facing = std::ranges::find_if(other, [&](int k) {
-        return edges_[k].start == match.at(edge.end) && edges_[k].end == match.at(edge.start);
-      });
-      if (facing == other.end()) return std::nullopt;
-      const LongEdge& across = edges_[*facing];
+      const int facing = match.at(edge.next);
+      const LongEdge& across = edges_[facing];
+      if (std::ranges::find(other, facing) == other.end() || across.next != match.at(i)) return std::nullopt;
       const bool lends = shape_.edges[edge.edge].is_used_beside(id_, used_);
       sliver.pairs.push_back(
           {lends ? edge.edge : across.edge, lends ? across.edge : edge.edge, edge.forward == across.forward});
-      if (match.at(edge.start) != edge.start) sliver.ties.push_back({edge.from, across.to});
+      if (match.at(i) != i) sliver.ties.push_back({edge.from, across.to});
     }
-    for (const LongEdge& edge : edges_) sliver.joints.push_back({edge.to, edges_[edge.end].from});
+    for (const LongEdge& edge : edges_) sliver.joints.push_back({edge.to, edges_[edge.next].from});
     return sliver;
   }
 
