@@ -71,11 +71,11 @@ class ChordSpacing {
     for (const auto& [chord, members] : members_) {
       if (members.size() == 1 && !followed_.contains(chord)) continue;
       for (const EdgeId edge : members) {
-        if (is_prescribed_.contains(chord) || suits(edge)) result[edge] = shares_of(edge);
+        if (holds(edge))
+          result[edge] = prescribed_[edge];
+        else if (is_prescribed_.contains(chord) || suits(edge))
+          result[edge] = shares_of(edge);
       }
-    }
-    for (const EdgeId edge : result.ids()) {
-      if (holds(edge)) result[edge] = prescribed_[edge];
     }
     return result;
   }

@@ -32,12 +32,10 @@ class Balancer {
 
   std::vector<int> run() {
     std::vector<int> left;
-    for (std::size_t node = 0; node < sums_.size(); ++node) {
-      while (is_wrong(static_cast<int>(node))) {
-        if (mend(static_cast<int>(node))) continue;
-        left.push_back(static_cast<int>(node));
-        break;
+    for (int node = 0; node < static_cast<int>(sums_.size()); ++node) {
+      while (is_wrong(node) && mend(node)) {
       }
+      if (is_wrong(node)) left.push_back(node);
     }
     return left;
   }

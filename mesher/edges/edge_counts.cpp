@@ -67,10 +67,8 @@ bool is_far_off(const FixedChords& chords, const IdVector<EdgeId, double>& effec
   add(pair.first, first);
   add(pair.second, second);
   const auto [low, high] = std::minmax({first, second});
-  return high > (has_fixed        ? largest_fixed_ratio
-                 : pair.has_sum() ? largest_ratio_of_sums
-                                  : largest_ratio) *
-                    low;
+  const bool is_sum = pair.has_sum();
+  return high > (has_fixed ? largest_fixed_ratio : is_sum ? largest_ratio_of_sums : largest_ratio) * low;
 }
 
 /// Ties edges with the same nodes, and edges that face each other. \param sides see choose_counts()

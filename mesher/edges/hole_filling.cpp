@@ -146,7 +146,6 @@ class HoleFinder {
 
   /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.
   std::optional<Hole> hole_at(std::size_t first) const {
-    Hole hole;
     std::set<std::size_t> loops{first};
     std::set<FaceId> faces;
     std::vector<FaceId> next;
@@ -168,11 +167,9 @@ class HoleFinder {
       }
     }
     if (loops.size() > 2) return std::nullopt;
-    for (const std::size_t loop : loops) {
-      if (faces.contains(loops_[loop].host)) return std::nullopt;
-    }
-    hole.loops.assign(loops.begin(), loops.end());
-    hole.faces.assign(faces.begin(), faces.end());
+    if (std::ranges::any_of(loops, [&](std::size_t loop) { return faces.contains(loops_[loop].host); }))
+      return std::nullopt;
+    Hole hole{{loops.begin(), loops.end()}, {faces.begin(), faces.end()}};
     return hole.faces.empty() || is_hole_or_boss(hole) ? std::optional(hole) : std::nullopt;
   }
 

@@ -145,17 +145,15 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
 
 /// Keeps the edges that end at the vertices, and the faces that would become edges there.
 void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
-  EdgeFlags ends(shape_.edges.size());
-  for (const EdgeId id : ends.ids()) {
+  const auto ends_there = [&](EdgeId id) {
     const CadEdge& edge = shape_.edges[id];
-    ends[id] = std::ranges::any_of(
+    return std::ranges::any_of(
         held, [&](VertexId vertex) { return edge.first_vertex == vertex || edge.last_vertex == vertex; });
-    fine[id] |= ends[id];
-  }
-  for (const Sliver& sliver : slivers_.slivers) {
-    for (const EdgeId edge : shape_.faces[sliver.face].edges())
-      if (ends[edge]) keep_face(sliver.face, "a node is placed at its boundary");
-  }
+  };
+  for (const EdgeId edge : fine.ids()) fine[edge] |= ends_there(edge);
+  for (const Sliver& sliver : slivers_.slivers)
+    if (std::ranges::any_of(shape_.faces[sliver.face].edges(), ends_there))
+      keep_face(sliver.face, "a node is placed at its boundary");
 }
 
 TinyFeatures SuppressedFeatures::find(double length) const {
