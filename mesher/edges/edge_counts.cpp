@@ -56,17 +56,9 @@ struct FixedChords {
 /// count, at least the least one
 bool is_far_off(const FixedChords& chords, const IdVector<EdgeId, double>& effective,
                 const FacingPair& pair) {
-  double first = 0, second = 0;
-  bool has_fixed = false;
-  const auto add = [&](const FaceSide& side, double& sum) {
-    for (const SideEdge& edge : side) {
-      sum += effective[edge.edge];
-      has_fixed |= chords.fixed_of(edge.edge) > 0;
-    }
-  };
-  add(pair.first, first);
-  add(pair.second, second);
-  const auto [low, high] = std::minmax({first, second});
+  const auto [low, high] = std::minmax({sum_over(pair.first, effective), sum_over(pair.second, effective)});
+  const bool has_fixed =
+      std::ranges::any_of(pair.edges(), [&](const SideEdge& edge) { return chords.fixed_of(edge.edge) > 0; });
   const bool is_sum = pair.has_sum();
   return high > (has_fixed ? largest_fixed_ratio : is_sum ? largest_ratio_of_sums : largest_ratio) * low;
 }

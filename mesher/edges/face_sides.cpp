@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -200,17 +199,12 @@ class SideFinder {
     return ends;
   }
 
-  double wanted_of(const FaceSide& side) const {
-    return std::accumulate(side.begin(), side.end(), 0.0,
-                           [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });
-  }
-
   /// Cuts two sides into pairs where their vertices face each other.
   void add_pairs(const FaceSide& first, const FaceSide& second, FaceSides& sides) const {
     const std::vector<double> a = ends_of(first), b = ends_of(second);
     constexpr double of_segment = 0.4, of_side = 0.05;
-    const double near =
-        std::min(of_side, of_segment / std::max(1.0, std::max(wanted_of(first), wanted_of(second))));
+    const double wanted = std::max(sum_over(first, wanted_), sum_over(second, wanted_));
+    const double near = std::min(of_side, of_segment / std::max(1.0, wanted));
     FacingPair pair;
     std::size_t i = 0, k = 0;
     while (i < a.size() || k < b.size()) {

@@ -96,10 +96,7 @@ class HoleFitter {
  private:
   /// Segments along the facing sides 0 and 2 (`which` = 0) or 1 and 3 (1); 0 if sides are cut into parts.
   int count_of(const FaceSides& sides, std::size_t which) const {
-    if (sides.facing.size() != 2) return 0;
-    int sum = 0;
-    for (const SideEdge& edge : sides.facing[which].first) sum += chosen_.counts[edge.edge];
-    return sum;
+    return sides.facing.size() == 2 ? sum_over(sides.facing[which].first, chosen_.counts) : 0;
   }
 
   /// The count near `now` that suits the holes best. \param axis 0 = columns, 1 = rows
