@@ -193,11 +193,10 @@ Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vect
   Surface surface = oriented_surface(std::move(triangles.mesh), notes);
   const double least_side = same_place * check_size(surface, options);
   context.check();
-  FeatureRules rules;
-  rules.angle = options.feature_angle;
-  rules.size = options.size;
-  rules.fixed = surface.touches;
-  rules.sides = given_sides(input, surface, triangles.node);
+  const FeatureRules rules{.angle = options.feature_angle,
+                           .size = options.size,
+                           .sides = given_sides(input, surface, triangles.node),
+                           .fixed = surface.touches};
   FeatureNetwork network = find_features(surface.mesh, rules);
   context.check();
   std::vector<int> face_of_patch(network.patch_count), edge_of_curve;
@@ -517,9 +516,7 @@ FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, 
     surface.find(segment.middle_point, segment.middle_uv, normal);
   }
   triangulation.pole.assign(points.size(), 0);
-  FaceQuadsOptions options;
-  options.recombine = given.recombine;
-  options.improve = given.improve;
+  const FaceQuadsOptions options{.recombine = given.recombine, .improve = given.improve};
   FaceQuads quads = make_quads(std::move(triangulation), surface, options, context);
   const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
                                                   std::numeric_limits<double>::infinity(), context);
