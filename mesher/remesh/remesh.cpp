@@ -269,10 +269,8 @@ RemeshedTriangles make_triangles(const Model& model, const std::vector<double>& 
                                  ExecutionContext& context) {
   const StageTimer timer(context, Stage::triangulate);
   std::vector<double> by_curve;
-  for (const FeatureCurve& curve : model.network.curves) {
-    double& least = by_curve.emplace_back(targets[curve.points.front()]);
-    for (const int v : curve.points) least = std::min(least, targets[v]);
-  }
+  for (const FeatureCurve& curve : model.network.curves)
+    by_curve.push_back(targets[std::ranges::min(curve.points, {}, [&](int v) { return targets[v]; })]);
   return remesh_triangles(model.surface.mesh, model.network, place_on_curves(model.network, by_curve),
                           model.locator, targets, context);
 }

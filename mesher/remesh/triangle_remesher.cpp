@@ -246,18 +246,17 @@ void insert_nodes(Triangulation& t, const FeatureCurve& curve, const std::vector
   for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
     const double s = nodes[n], size = 0.5 * (nodes[n + 1] - nodes[n - 1]);
     while (curve.along[k + 1] <= s - near) start = Vertex(curve.points[++k]);
+    Vertex node;
     if (std::abs(curve.along[k + 1] - s) < near) {
-      start = Vertex(curve.points[++k]);
-      t.hold[start] = held;
-      tell(start, size);
+      node = start = Vertex(curve.points[++k]);
     } else if (std::abs(curve.along[k] - s) < near && k > 0) {
-      t.hold[Vertex(curve.points[k])] = held;
-      tell(Vertex(curve.points[k]), size);
+      node = Vertex(curve.points[k]);
     } else {
       const Halfedge h = t.mesh.halfedge(start, Vertex(curve.points[k + 1]));
-      start = t.split(h, curve.at(s), s);
-      tell(start, size);
+      node = start = t.split(h, curve.at(s), s);
     }
+    t.hold[node] = held;
+    tell(node, size);
   }
 }
 
