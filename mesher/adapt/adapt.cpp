@@ -44,7 +44,7 @@ void check(const ShellMesh& mesh, const AdaptOptions& options) {
 bool deforms(const SolverResult& result) {
   constexpr double rounding = 1e-9;
   const Vector3& first = result.displacements.front();
-  return std::any_of(result.displacements.begin(), result.displacements.end(), [&](const Vector3& moved) {
+  return std::ranges::any_of(result.displacements, [&](const Vector3& moved) {
     return (moved - first).norm() > rounding * (moved.norm() + first.norm());
   });
 }
@@ -62,18 +62,10 @@ class SizePlan {
         now_(sizes_of(mesh)),
         even_(even_sizes(mesh, estimate)),
         singular_(singular_corners(mesh, estimate)),
-        at_points_(mesh.points.size(), 0) {
-    std::vector<double> quads(mesh.points.size(), 0);
-    for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
-      for (const int node : mesh.quads[quad]) {
-        at_points_[node] += now_[quad];
-        ++quads[node];
-      }
-    }
+        at_points_(means_at_nodes(mesh, [&](Side corner) { return now_[element_of(corner)]; })) {
     double sum = 0, corners = 0;
-    for (std::size_t node = 0; node < quads.size(); ++node) {
-      if (quads[node] == 0) continue;
-      at_points_[node] /= quads[node];
+    for (std::size_t node = 0; node < at_points_.size(); ++node) {
+      if (at_points_[node] == 0) continue;
       sum += std::log(at_points_[node] / even_[node]);
       ++corners;
     }
@@ -161,7 +153,7 @@ class SizePlan {
       }
       double longest = 0;
       for (int k = 0; k < 4; ++k) longest = std::max(longest, (corners[(k + 1) % 4] - corners[k]).norm());
-      const double least = *std::min_element(sizes.begin(), sizes.end());
+      const double least = *std::ranges::min_element(sizes);
       const int n = to_int(std::clamp(std::ceil(longest / least), 2.0, 32.0));
       for (int k = 0; k < n * n; ++k) {
         const int column = k % n, row = k / n;

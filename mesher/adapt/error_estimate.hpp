@@ -9,6 +9,7 @@
 
 #include "mesher/adapt/shell_stress.hpp"
 #include "mesher/mesh/mesh_types.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -29,6 +30,19 @@ ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array
 
 /// (quads) The square root of each quad's area.
 std::vector<double> sizes_of(const ShellMesh& mesh);
+
+/// (points) The mean over the quads at each corner node; 0 at other points. \param value (Side) of a quad at
+/// one of its corners
+template <class Value>
+std::vector<double> means_at_nodes(const ShellMesh& mesh, Value&& value) {
+  const Rows<Side> corners = corners_by_node(mesh.points.size(), mesh.quads);
+  std::vector<double> means(mesh.points.size(), 0);
+  for (std::size_t node = 0; node < means.size(); ++node) {
+    for (const Side corner : corners[node]) means[node] += value(corner);
+    if (!corners[node].empty()) means[node] /= static_cast<double>(corners[node].size());
+  }
+  return means;
+}
 
 /// (points) Sizes at the corner nodes with which all elements have the same error, up to a common factor; 0
 /// at other points. The error of a single quad is noisy, so each corner takes all quads around it.

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
-#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -35,82 +36,22 @@ double stress_at_corner(const std::array<ShellStress, 4>& points, int corner) {
   return std::max(von_mises(membrane + bending), von_mises(membrane - bending));
 }
 
-class PeakFinder {
- public:
-  PeakFinder(const ShellMesh& mesh, const std::vector<std::array<ShellStress, 4>>& stresses)
-      : mesh_(mesh),
-        sizes_(sizes_of(mesh)),
-        corners_(corners_by_node(mesh.points.size(), mesh.quads)),
-        stress_(mesh.points.size(), 0) {
-    for (std::size_t node = 0; node < stress_.size(); ++node) {
-      for (const Side corner : corners_[node])
-        stress_[node] += stress_at_corner(stresses[element_of(corner)], index_of(corner));
-      if (!corners_[node].empty()) stress_[node] /= static_cast<double>(corners_[node].size());
-    }
+/// Whether a node lies on the rim, and the mesh fills more than 240 degrees around it. Rims of round holes
+/// with 7 segments or more are below that. \param corners of the quads at the node
+bool is_sharp_corner(const ShellMesh& mesh, std::size_t node, std::span<const Side> corners) {
+  constexpr double sharp = 4 * M_PI / 3;
+  double angle = 0;
+  std::map<int, int> sides;  // quads by the other end of their sides at the node
+  for (const Side corner : corners) {
+    const auto& quad = mesh.quads[element_of(corner)];
+    const int k = index_of(corner), next = quad[(k + 1) % 4], before = quad[(k + 3) % 4];
+    angle += angle_between(mesh.points[next] - mesh.points[node], mesh.points[before] - mesh.points[node]);
+    ++sides[next];
+    ++sides[before];
   }
-
-  std::vector<StressPeak> find() const {
-    constexpr double least_share = 0.3, apart = 3;
-    constexpr std::size_t max_peaks = 10;
-    const double largest = *std::max_element(stress_.begin(), stress_.end());
-    std::vector<std::size_t> order(stress_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::erase_if(order, [&](std::size_t node) {
-      return corners_[node].empty() || stress_[node] < least_share * largest || !is_highest(node);
-    });
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return stress_[a] > stress_[b]; });
-    std::vector<StressPeak> peaks;
-    for (const std::size_t node : order) {
-      const Vector3& at = mesh_.points[node];
-      const double size = size_at(node);
-      const bool is_apart = std::none_of(peaks.begin(), peaks.end(), [&](const StressPeak& other) {
-        return (other.at - at).norm() < apart * std::max(size, other.size);
-      });
-      if (is_apart) peaks.push_back({at, stress_[node], size, is_sharp_corner(node)});
-      if (peaks.size() == max_peaks) break;
-    }
-    return peaks;
-  }
-
- private:
-  bool is_highest(std::size_t node) const {
-    for (const Side corner : corners_[node])
-      for (const int other : mesh_.quads[element_of(corner)])
-        if (stress_[other] > stress_[node]) return false;
-    return true;
-  }
-
-  double size_at(std::size_t node) const {
-    double sum = 0;
-    for (const Side corner : corners_[node]) sum += sizes_[element_of(corner)];
-    return sum / static_cast<double>(corners_[node].size());
-  }
-
-  /// Whether the node lies on the rim, and the mesh fills more than 240 degrees around it. Rims of round
-  /// holes with 7 segments or more are below that.
-  bool is_sharp_corner(std::size_t node) const {
-    constexpr double sharp = 4 * M_PI / 3;
-    double angle = 0;
-    std::map<int, int> sides;  // quads by the other end of their sides at the node
-    for (const Side corner : corners_[node]) {
-      const auto& quad = mesh_.quads[element_of(corner)];
-      const int k = index_of(corner), next = quad[(k + 1) % 4], before = quad[(k + 3) % 4];
-      angle +=
-          angle_between(mesh_.points[next] - mesh_.points[node], mesh_.points[before] - mesh_.points[node]);
-      ++sides[next];
-      ++sides[before];
-    }
-    const bool on_rim =
-        std::any_of(sides.begin(), sides.end(), [](const auto& side) { return side.second == 1; });
-    return on_rim && angle > sharp;
-  }
-
-  const ShellMesh& mesh_;
-  std::vector<double> sizes_;
-  Rows<Side> corners_;
-  std::vector<double> stress_;  // (points) 0 where no quad has a corner
-};
+  const bool on_rim = std::ranges::any_of(sides, [](const auto& side) { return side.second == 1; });
+  return on_rim && angle > sharp;
+}
 
 }  // namespace
 
@@ -132,7 +73,38 @@ std::string PeakChange::sentence() const {
 
 std::vector<StressPeak> stress_peaks(const ShellMesh& mesh,
                                      const std::vector<std::array<ShellStress, 4>>& stresses) {
-  return mesh.quads.empty() ? std::vector<StressPeak>() : PeakFinder(mesh, stresses).find();
+  constexpr double least_share = 0.3, apart = 3;
+  constexpr std::size_t max_peaks = 10;
+  std::vector<StressPeak> peaks;
+  if (mesh.quads.empty()) return peaks;
+  const Rows<Side> corners = corners_by_node(mesh.points.size(), mesh.quads);
+  const std::vector<double> of_quads = sizes_of(mesh);
+  const std::vector<double> sizes =
+      means_at_nodes(mesh, [&](Side corner) { return of_quads[element_of(corner)]; });
+  const std::vector<double> stress = means_at_nodes(
+      mesh, [&](Side corner) { return stress_at_corner(stresses[element_of(corner)], index_of(corner)); });
+  const double largest = *std::ranges::max_element(stress);
+  const auto is_highest = [&](std::size_t node) {
+    for (const Side corner : corners[node])
+      for (const int other : mesh.quads[element_of(corner)])
+        if (stress[other] > stress[node]) return false;
+    return true;
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t node = 0; node < stress.size(); ++node)
+    if (!corners[node].empty() && !(stress[node] < least_share * largest) && is_highest(node))
+      order.push_back(node);
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t node) { return stress[node]; });
+  for (const std::size_t node : order) {
+    const Vector3& at = mesh.points[node];
+    const bool is_apart = std::ranges::none_of(peaks, [&](const StressPeak& other) {
+      return (other.at - at).norm() < apart * std::max(sizes[node], other.size);
+    });
+    if (is_apart)
+      peaks.push_back({at, stress[node], sizes[node], is_sharp_corner(mesh, node, corners[node])});
+    if (peaks.size() == max_peaks) break;
+  }
+  return peaks;
 }
 
 std::vector<PeakChange> changes_of_peaks(const std::vector<StressPeak>& before,
@@ -141,9 +113,7 @@ std::vector<PeakChange> changes_of_peaks(const std::vector<StressPeak>& before,
   std::vector<PeakChange> changes;
   for (const StressPeak& peak : now) {
     const auto distance = [&](const StressPeak& other) { return (other.at - peak.at).norm(); };
-    const auto nearest = std::min_element(before.begin(), before.end(), [&](const auto& a, const auto& b) {
-      return distance(a) < distance(b);
-    });
+    const auto nearest = std::ranges::min_element(before, {}, distance);
     if (nearest == before.end() || !(nearest->stress > 0) ||
         distance(*nearest) > same_place * std::max(peak.size, nearest->size))
       continue;

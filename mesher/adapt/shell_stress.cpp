@@ -3,7 +3,6 @@
 #include "mesher/adapt/shell_stress.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -54,7 +54,7 @@ class ChordSpacing {
   EdgeShares run(const FaceOutlines& sides) {
     // A chord takes over the shares of its first member with prescribed ones.
     for (const auto& [chord, members] : members_) {
-      const auto edge = std::find_if(members.begin(), members.end(), [&](EdgeId id) { return holds(id); });
+      const auto edge = std::ranges::find_if(members, [&](EdgeId id) { return holds(id); });
       if (edge == members.end()) continue;
       shares_[chord] = prescribed_[*edge];
       if (chords_.against(*edge)) turn_round(shares_[chord]);
@@ -71,11 +71,11 @@ class ChordSpacing {
     for (const auto& [chord, members] : members_) {
       if (members.size() == 1 && !followed_.contains(chord)) continue;
       for (const EdgeId edge : members) {
-        if (is_prescribed_.contains(chord) || suits(edge)) result[edge] = shares_of(edge);
+        if (holds(edge))
+          result[edge] = prescribed_[edge];
+        else if (is_prescribed_.contains(chord) || suits(edge))
+          result[edge] = shares_of(edge);
       }
-    }
-    for (const EdgeId edge : result.ids()) {
-      if (holds(edge)) result[edge] = prescribed_[edge];
     }
     return result;
   }
@@ -86,7 +86,7 @@ class ChordSpacing {
   }
 
   static void turn_round(std::vector<double>& shares) {
-    std::reverse(shares.begin(), shares.end());
+    std::ranges::reverse(shares);
     for (double& share : shares) share = 1 - share;
   }
 

@@ -1,6 +1,6 @@
 /// Joins coplanar faces: collects the faces around each one, and makes one outline of theirs.
 
-#include "mesher/edges/coplanar_faces.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepTools.hxx>
@@ -93,7 +93,7 @@ class CoplanarFaces {
           if (!does_harm(edge, group, *planes_[next]) || !lie_beside_each_other(edge, member, next)) continue;
           if (!lies_in_plane(group.whole, group.members.front(), next)) continue;
           const std::vector<EdgeId> shared = shared_edges(next, group.inside);
-          if (std::any_of(shared.begin(), shared.end(), [&](EdgeId id) { return stays(id); })) continue;
+          if (std::ranges::any_of(shared, [&](EdgeId id) { return stays(id); })) continue;
           double length = 0;
           for (const EdgeId id : shared) length += shape_.edges[id].length;
           group.whole.add(*planes_[next], length);
@@ -169,9 +169,7 @@ class CoplanarFaces {
 
   bool stays(EdgeId id) const {
     const CadEdge& edge = shape_.edges[id];
-    return edge.faces.size() != 2 || edge.faces[0] == edge.faces[1] || sizing_.names_edge(edge.number) ||
-           sizing_.names_vertex(edge.first_vertex.number()) ||
-           sizing_.names_vertex(edge.last_vertex.number());
+    return edge.faces.size() != 2 || edge.faces[0] == edge.faces[1] || is_named(edge, sizing_);
   }
 
   /// The edges between a face and those of a group.
@@ -179,7 +177,7 @@ class CoplanarFaces {
     std::vector<EdgeId> result = shape_.faces[face].edges();
     std::erase_if(result, [&](EdgeId edge) {
       const auto& faces = shape_.edges[edge].faces;
-      return std::none_of(faces.begin(), faces.end(), [&](FaceId other) { return inside.contains(other); });
+      return std::ranges::none_of(faces, [&](FaceId other) { return inside.contains(other); });
     });
     return result;
   }
@@ -230,78 +228,74 @@ class CoplanarFaces {
   IdVector<FaceId, std::optional<PlaneFace>> planes_;  // of the faces that may be joined
 };
 
-/// Makes one face of several.
-class FaceJoiner {
- public:
-  FaceJoiner(const CadShape& shape, const std::vector<FaceId>& members) : shape_(shape), members_(members) {
-    std::map<EdgeId, int> uses;
-    for_each_coedge([&](const CadFace&, const Coedge& coedge) { ++uses[coedge.edge]; });
-    for (const auto& [edge, count] : uses)
-      if (count == 2) inner_.push_back(edge);
-  }
+/// The edges that lie between several faces, ascending.
+std::vector<EdgeId> edges_between(const CadShape& shape, const std::vector<FaceId>& members) {
+  std::map<EdgeId, int> uses;
+  for (const FaceId member : members)
+    for (const EdgeId edge : shape.faces[member].edges()) ++uses[edge];
+  std::vector<EdgeId> result;
+  for (const auto& [edge, count] : uses)
+    if (count == 2) result.push_back(edge);
+  return result;
+}
 
-  const std::vector<EdgeId>& inner() const { return inner_; }
-
-  /// The face with the outline of all. Nothing if the outline touches itself.
-  std::optional<CadFace> face() const {
-    std::optional<std::vector<CadWire>> wires = outline();
-    if (!wires) return std::nullopt;
-    CadFace result = shape_.faces[members_.front()];
-    result.face = TopoDS::Face(result.face.EmptyCopied());
-    result.wires = std::move(*wires);
-    const BRep_Builder builder;
-    for (const CadWire& wire : result.wires) {
-      TopoDS_Wire loop;
-      builder.MakeWire(loop);
-      for (const Coedge& coedge : wire.coedges) builder.Add(loop, coedge.source);
-      builder.Add(result.face, loop);
-    }
-    BRepTools::UVBounds(result.face, result.u_min, result.u_max, result.v_min, result.v_max);
-    for (const FaceId member : members_)
-      result.tolerance = std::max(result.tolerance, shape_.faces[member].tolerance);
-    return result;
-  }
-
- private:
-  template <class Act>
-  void for_each_coedge(Act&& act) const {
-    for (const FaceId member : members_)
-      for (const CadWire& wire : shape_.faces[member].wires)
-        for (const Coedge& coedge : wire.coedges) act(shape_.faces[member], coedge);
-  }
-
-  std::optional<std::vector<CadWire>> outline() const {
-    std::map<VertexId, Coedge> starts;
-    bool is_plain = true;
-    std::vector<CadWire> wires;
-    for_each_coedge([&](const CadFace& face, Coedge coedge) {
-      if (std::binary_search(inner_.begin(), inner_.end(), coedge.edge)) return;
-      const CadFace& first = shape_.faces[members_.front()];
-      coedge.forward = coedge.forward == (face.reversed == first.reversed);
-      coedge.source = TopoDS::Edge(coedge.source.Oriented(coedge.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
-      double from = 0, to = 0;
-      coedge.parametric_curve = BRep_Tool::CurveOnSurface(coedge.source, first.face, from, to);
-      const VertexId start = shape_.start_of(coedge);
-      is_plain = is_plain && !coedge.parametric_curve.IsNull() && start.exists() &&
-                 starts.emplace(start, std::move(coedge)).second;
-    });
-    while (is_plain && !starts.empty()) {
-      CadWire wire;
-      for (auto next = starts.begin(); next != starts.end();) {
-        const VertexId end = shape_.end_of(next->second);
-        wire.coedges.push_back(std::move(next->second));
-        starts.erase(next);
-        next = starts.find(end);
+/// The outline of several faces, in the parameter plane of the first. Nothing if it touches itself.
+/// \param inner edges between them, ascending
+std::optional<std::vector<CadWire>> outline_of(const CadShape& shape, const std::vector<FaceId>& members,
+                                               const std::vector<EdgeId>& inner) {
+  const CadFace& first = shape.faces[members.front()];
+  std::map<VertexId, Coedge> starts;
+  for (const FaceId member : members) {
+    const CadFace& face = shape.faces[member];
+    for (const CadWire& wire : face.wires) {
+      for (Coedge coedge : wire.coedges) {
+        if (std::ranges::binary_search(inner, coedge.edge)) continue;
+        coedge.forward = coedge.forward == (face.reversed == first.reversed);
+        coedge.source =
+            TopoDS::Edge(coedge.source.Oriented(coedge.forward ? TopAbs_FORWARD : TopAbs_REVERSED));
+        double from = 0, to = 0;
+        coedge.parametric_curve = BRep_Tool::CurveOnSurface(coedge.source, first.face, from, to);
+        const VertexId start = shape.start_of(coedge);
+        if (coedge.parametric_curve.IsNull() || !start.exists() ||
+            !starts.emplace(start, std::move(coedge)).second)
+          return std::nullopt;
       }
-      wires.push_back(std::move(wire));
     }
-    return is_plain ? std::optional(std::move(wires)) : std::nullopt;
   }
+  std::vector<CadWire> wires;
+  while (!starts.empty()) {
+    CadWire wire;
+    for (auto next = starts.begin(); next != starts.end();) {
+      const VertexId end = shape.end_of(next->second);
+      wire.coedges.push_back(std::move(next->second));
+      starts.erase(next);
+      next = starts.find(end);
+    }
+    wires.push_back(std::move(wire));
+  }
+  return wires;
+}
 
-  const CadShape& shape_;
-  const std::vector<FaceId>& members_;
-  std::vector<EdgeId> inner_;  // ascending
-};
+/// The face with the outline of all. Nothing if the outline touches itself. \param inner see outline_of()
+std::optional<CadFace> joined(const CadShape& shape, const std::vector<FaceId>& members,
+                              const std::vector<EdgeId>& inner) {
+  std::optional<std::vector<CadWire>> wires = outline_of(shape, members, inner);
+  if (!wires) return std::nullopt;
+  CadFace result = shape.faces[members.front()];
+  result.face = TopoDS::Face(result.face.EmptyCopied());
+  result.wires = std::move(*wires);
+  const BRep_Builder builder;
+  for (const CadWire& wire : result.wires) {
+    TopoDS_Wire loop;
+    builder.MakeWire(loop);
+    for (const Coedge& coedge : wire.coedges) builder.Add(loop, coedge.source);
+    builder.Add(result.face, loop);
+  }
+  BRepTools::UVBounds(result.face, result.u_min, result.u_max, result.v_min, result.v_max);
+  for (const FaceId member : members)
+    result.tolerance = std::max(result.tolerance, shape.faces[member].tolerance);
+  return result;
+}
 
 /// Puts the joined face in the place of the first. \param inner edges between the members
 void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vector<EdgeId>& inner,
@@ -323,7 +317,7 @@ void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vec
     auto& faces = shape.edges[edge].faces;
     for (FaceId& at : faces)
       if (model.taken_by[at].exists()) at = model.taken_by[at];
-    std::sort(faces.begin(), faces.end());
+    std::ranges::sort(faces);
   }
   shape.faces[first] = std::move(face);
 }
@@ -341,11 +335,11 @@ void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const Si
     const auto group = faces.around(face, taken);
     if (group.members.size() < 2) continue;
     for (const FaceId member : group.members) taken[member] = 1;
-    const FaceJoiner joiner(before, group.members);
-    std::optional<CadFace> whole = joiner.face();
+    const std::vector<EdgeId> inner = edges_between(before, group.members);
+    std::optional<CadFace> whole = joined(before, group.members, inner);
     if (!whole) continue;
     if (!after) after = std::make_shared<CadShape>(before);
-    replace(*after, group.members, joiner.inner(), std::move(*whole), model);
+    replace(*after, group.members, inner, std::move(*whole), model);
   }
   if (after) model.model = CadModel(after);
 }

@@ -32,12 +32,10 @@ class Balancer {
 
   std::vector<int> run() {
     std::vector<int> left;
-    for (std::size_t node = 0; node < sums_.size(); ++node) {
-      while (is_wrong(static_cast<int>(node))) {
-        if (mend(static_cast<int>(node))) continue;
-        left.push_back(static_cast<int>(node));
-        break;
+    for (int node = 0; node < static_cast<int>(sums_.size()); ++node) {
+      while (is_wrong(node) && mend(node)) {
       }
+      if (is_wrong(node)) left.push_back(node);
     }
     return left;
   }
@@ -53,8 +51,7 @@ class Balancer {
 
   static bool can_change(const BalanceProblem::Variable& variable) {
     return !variable.fixed && variable.terms.size() <= 2 &&
-           std::all_of(variable.terms.begin(), variable.terms.end(),
-                       [](const auto& term) { return std::abs(term.second) == 1; });
+           std::ranges::all_of(variable.terms, [](const auto& term) { return std::abs(term.second) == 1; });
   }
 
   bool is_wrong(int node) const {
@@ -144,7 +141,7 @@ class Balancer {
       const auto other = terms.size() == 2 ? terms[1 - here] : std::pair<int, int>{-1, 0};
       for (const int change : {1, -1}) {
         if (at.need != 0 && change * terms[here].second != at.need) continue;
-        if (std::find(banned_.begin(), banned_.end(), std::pair{i, change}) != banned_.end()) continue;
+        if (std::ranges::find(banned_, std::pair{i, change}) != banned_.end()) continue;
         visit(i, change, other.first, change * other.second);
       }
     }

@@ -82,15 +82,16 @@ class EdgeTabulator {
 
 /// The index of a parameter in a table. Inserts the parameter if it is missing.
 std::size_t split_at(CountTable& table, double t) {
-  auto &parameters = table.parameters, &counts = table.counts, &lengths = table.lengths;
-  const auto it = std::lower_bound(parameters.begin(), parameters.end(), t);
+  std::vector<double>& parameters = table.parameters;
+  const auto it = std::ranges::lower_bound(parameters, t);
   const std::size_t i = it - parameters.begin();
   if (it == parameters.end()) return i - 1;
   if (i == 0 || *it == t) return i;
   const double share = (t - parameters[i - 1]) / (parameters[i] - parameters[i - 1]);
-  counts.insert(counts.begin() + static_cast<long>(i), counts[i - 1] + share * (counts[i] - counts[i - 1]));
-  lengths.insert(lengths.begin() + static_cast<long>(i),
-                 lengths[i - 1] + share * (lengths[i] - lengths[i - 1]));
+  for (std::vector<double>* values : {&table.counts, &table.lengths}) {
+    const double before = (*values)[i - 1], after = (*values)[i];
+    values->insert(values->begin() + static_cast<long>(i), before + share * (after - before));
+  }
   parameters.insert(it, t);
   return i;
 }

@@ -17,7 +17,7 @@ struct TablePlace {
 };
 
 inline TablePlace place_in(const std::vector<double>& table, double value) {
-  const auto it = std::lower_bound(table.begin(), table.end(), value);
+  const auto it = std::ranges::lower_bound(table, value);
   const std::size_t i = std::clamp<std::size_t>(it - table.begin(), 1, table.size() - 1) - 1;
   const double span = table[i + 1] - table[i];
   return {i, span > 0 ? std::clamp((value - table[i]) / span, 0.0, 1.0) : 0.5};

@@ -15,8 +15,6 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_balance.hpp"
-#include "mesher/edges/parity.hpp"
-#include "mesher/edges/single_segments.hpp"
 
 namespace quadrille {
 
@@ -28,13 +26,12 @@ constexpr double largest_ratio_of_sums = 1.3;
 constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 bool has_sums(const FaceSides& sides) {
-  return std::any_of(sides.facing.begin(), sides.facing.end(),
-                     [](const FacingPair& pair) { return pair.first.size() + pair.second.size() > 2; });
+  return std::ranges::any_of(sides.facing, &FacingPair::has_sum);
 }
 
 bool is_on(EdgeId edge, FaceSides sides) {
   sides.drop_facing();
-  return std::find(sides.rest.begin(), sides.rest.end(), edge) != sides.rest.end();
+  return std::ranges::find(sides.rest, edge) != sides.rest.end();
 }
 
 /// Chords with the numbers that users prescribe for them.
@@ -59,18 +56,10 @@ struct FixedChords {
 /// count, at least the least one
 bool is_far_off(const FixedChords& chords, const IdVector<EdgeId, double>& effective,
                 const FacingPair& pair) {
-  double first = 0, second = 0;
-  bool has_fixed = false;
-  const auto add = [&](const FaceSide& side, double& sum) {
-    for (const SideEdge& edge : side) {
-      sum += effective[edge.edge];
-      has_fixed |= chords.fixed_of(edge.edge) > 0;
-    }
-  };
-  add(pair.first, first);
-  add(pair.second, second);
-  const auto [low, high] = std::minmax({first, second});
-  const bool is_sum = pair.first.size() + pair.second.size() > 2;
+  const auto [low, high] = std::minmax({sum_over(pair.first, effective), sum_over(pair.second, effective)});
+  const bool has_fixed =
+      std::ranges::any_of(pair.edges(), [&](const SideEdge& edge) { return chords.fixed_of(edge.edge) > 0; });
+  const bool is_sum = pair.has_sum();
   return high > (has_fixed ? largest_fixed_ratio : is_sum ? largest_ratio_of_sums : largest_ratio) * low;
 }
 
@@ -93,11 +82,10 @@ FixedChords tie_chords(const CadShape& shape, const CountTargets& targets, const
   }
   for (const FaceId face : sides.ids()) {
     const auto& facing = sides[face].facing;
-    bool fits = std::none_of(facing.begin(), facing.end(),
-                             [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
+    bool fits = std::ranges::none_of(
+        facing, [&](const FacingPair& pair) { return is_far_off(chords, effective, pair); });
     for (const FacingPair& pair : facing) {
-      if (fits && pair.first.size() == 1 && pair.second.size() == 1)
-        fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
+      if (fits && !pair.has_sum()) fits = chords.tie(pair.first[0], pair.second[0], largest_ratio);
     }
     if (!fits) sides[face].drop_facing();
   }
@@ -216,15 +204,11 @@ class CountProblem {
   /// Chords that only grids use, and that sums connect only to other such chords, are counted in segments of
   /// the final mesh: nothing there is cut in two.
   void choose_units() {
-    boost::disjoint_sets_with_storage<> groups(problem_.variables.size());
-    std::vector<int> first(problem_.rules.size(), -1);
-    for (std::size_t i = 0; i < problem_.variables.size(); ++i) {
-      for (const auto& [node, coefficient] : problem_.variables[i].terms) {
-        if (first[node] < 0) first[node] = static_cast<int>(i);
-        groups.union_set(i, static_cast<std::size_t>(first[node]));
-      }
-    }
-    std::vector<int> units(problem_.variables.size(), 1);
+    const std::size_t chords = problem_.variables.size(), all = chords + problem_.rules.size();
+    boost::disjoint_sets_with_storage<> groups(all);  // of chords, then nodes
+    for (std::size_t i = 0; i < chords; ++i)
+      for (const auto& [node, coefficient] : problem_.variables[i].terms) groups.union_set(i, chords + node);
+    std::vector<int> units(all, 1);
     const auto unit_of = [&](EdgeId chord) -> int& {
       return units[groups.find_set(static_cast<std::size_t>(chord.index()))];
     };
@@ -285,8 +269,7 @@ class CountProblem {
   void add_term(EdgeId edge, int node, int coefficient) {
     if (targets_.least[edge] == 0) return;
     auto& terms = variable(chords_.chords.of(edge)).terms;
-    const auto it =
-        std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == node; });
+    const auto it = std::ranges::find_if(terms, [&](const auto& term) { return term.first == node; });
     if (it == terms.end()) {
       terms.push_back({node, coefficient});
     } else {

@@ -37,4 +37,13 @@ struct EdgeCounts {
 EdgeCounts choose_counts(const CadShape& shape, const CountTargets& targets, const TinyFeatures& tiny,
                          FaceOutlines& sides);
 
+/// Gives one segment in place of two to the chords whose wanted count is nearer to one than to two, by ratio:
+/// the ends of strips, for instance, which then have one row. On real parts there are 8 % fewer short sides,
+/// and 6 % fewer quads outside the limits (decision 75). Faces beside them are not cut from quads of twice
+/// the size, so their boundaries need an even sum of segments only: where the sum would be odd, a cheapest
+/// set of chords keeps its two segments (make_even()). Chords keep them too where curves, users, or sums over
+/// sides of several edges require more than one. Does nothing unless the stride is 2.
+void choose_single_segments(const CadShape& shape, const CountTargets& targets, const FaceOutlines& sides,
+                            EdgeCounts& chosen);
+
 }  // namespace quadrille

@@ -26,7 +26,7 @@ void replace(CadWire& wire, EdgeId id, const std::vector<EdgeId>& pieces) {
     if (wire.coedges[i].edge != id) continue;
     std::vector<Coedge> parts(pieces.size(), wire.coedges[i]);
     for (std::size_t k = 0; k < pieces.size(); ++k) parts[k].edge = pieces[k];
-    if (!parts.front().forward) std::reverse(parts.begin(), parts.end());
+    if (!parts.front().forward) std::ranges::reverse(parts);
     wire.coedges.erase(wire.coedges.begin() + static_cast<long>(i));
     wire.coedges.insert(wire.coedges.begin() + static_cast<long>(i), parts.begin(), parts.end());
     i += pieces.size() - 1;

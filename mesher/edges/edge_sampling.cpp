@@ -38,18 +38,15 @@ int least_segments(bool closed, double turning, bool shares_both_ends, bool inne
 
 /// Edges that share both end vertices with another edge: with one segment each, the two would coincide.
 EdgeFlags find_shared_ends(const CadShape& shape, const TinyFeatures& tiny) {
-  std::map<std::pair<VertexId, VertexId>, int> count;
-  const auto key = [&](const CadEdge& e) -> std::pair<VertexId, VertexId> {
-    return std::minmax({tiny.end(e.first_vertex), tiny.end(e.last_vertex)});
-  };
-  EdgeFlags shared(shape.edges.size());
-  const auto is_open = [&](EdgeId i) {
-    return !shape.edges[i].degenerate && !tiny.closed(shape.edges[i]) && tiny.edges[i] == i;
-  };
-  for (const EdgeId i : shared.ids()) {
-    if (is_open(i)) ++count[key(shape.edges[i])];
+  std::map<std::pair<VertexId, VertexId>, std::vector<EdgeId>> between;  // ends -> edges
+  for (const EdgeId id : shape.edges.ids()) {
+    const CadEdge& edge = shape.edges[id];
+    if (edge.degenerate || tiny.closed(edge) || tiny.edges[id] != id) continue;
+    between[std::minmax({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)})].push_back(id);
   }
-  for (const EdgeId i : shared.ids()) shared[i] = is_open(i) && count[key(shape.edges[i])] > 1;
+  EdgeFlags shared(shape.edges.size());
+  for (const auto& [ends, edges] : between)
+    for (const EdgeId edge : edges) shared[edge] = edges.size() > 1;
   return shared;
 }
 
@@ -93,7 +90,7 @@ double least_size(const SizingField& field, const SamplingPlan& plan, EdgeId edg
 class TargetFinder {
  public:
   TargetFinder(const CadShape& shape, const SizingField& field, int stride, const SamplingPlan& plan,
-               ExecutionContext& context, EdgeTables* known)
+               ExecutionContext& context, EdgeTables& known)
       : shape_(shape),
         field_(field),
         stride_(stride),
@@ -106,6 +103,7 @@ class TargetFinder {
     demand_.used = find_used_edges(shape_, used, plan_.tiny);
     const EdgeFlags shared_ends = find_shared_ends(shape_, plan_.tiny);
     const EdgeFlags inner = find_inner_edges(shape_);
+    known_.resize(n_);
     demand_.tables.resize(n_);
     targets_.stride = stride_;
     targets_.check = [&context = context_] { context.check(); };
@@ -121,7 +119,7 @@ class TargetFinder {
       const CadEdge& edge = shape_.edges[i];
       if (edge.degenerate || edge.length <= 0 || !demand_.used[i] || plan_.tiny.collapsed_edges[i]) continue;
       demand_.tables[i] = table_of(i);
-      const int stride = plan_.stride_of(edge, stride_);
+      const int stride = edge.is_used(plan_.subdivided) ? 2 : stride_;
       bool is_finer = false;
       for (const EdgeStretch& part : plan_.finer) {
         if (part.edge != i) continue;
@@ -184,14 +182,12 @@ class TargetFinder {
   }
 
   CountTable table_of(EdgeId id) {
-    const auto make = [&] {
+    CountTable& known = known_[id];
+    if (known.counts.empty()) {
       SizingField::Sampler sampler(field_, shape_.edges[id]);
-      return tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
-    };
-    if (known_ == nullptr) return make();
-    known_->resize(n_);
-    if ((*known_)[id].counts.empty()) (*known_)[id] = make();
-    return (*known_)[id];
+      known = tabulate(shape_.edges[id], plan_.tiny.edges[id] == id, sampler);
+    }
+    return known;
   }
 
   /// How many segments a remedy may ask for on a part of an edge.
@@ -224,21 +220,11 @@ class TargetFinder {
   const int stride_;
   const SamplingPlan& plan_;
   ExecutionContext& context_;
-  EdgeTables* known_;    // may be null
+  EdgeTables& known_;
   const std::size_t n_;  // edges
   EdgeDemand demand_;
   CountTargets& targets_ = demand_.targets;
 };
-
-EdgeShares prescribed_shares(const CadShape& shape, const SamplingPlan& plan,
-                             const IdVector<EdgeId, int>& counts) {
-  EdgeShares shares(counts.size());
-  for (const EdgeId i : counts.ids()) {
-    if (!plan.prescribes(i) || counts[i] == 0) continue;
-    shares[i] = PrescribedEdge::make(shape.edges[i], counts[i], plan.prescribed[i]->spacing).shares;
-  }
-  return shares;
-}
 
 /// The numbers of segments, and where nodes lie on the edges.
 struct Division {
@@ -252,16 +238,17 @@ Division divide_edges(const CadShape& shape, const SamplingPlan& plan, const Edg
   Division result{choose_counts(shape, demand.targets, plan.tiny, sides), {}};
   const auto& [counts, chords] = result.counts;
   PlannedSpacing& spacing = result.spacing;
-  spacing.shares =
-      space_chords(shape, sides, chords, demand.tables, counts, prescribed_shares(shape, plan, counts));
   spacing.divided.resize(counts.size());
   spacing.kept.resize(counts.size());
+  EdgeShares shares(counts.size());
   for (const EdgeId i : counts.ids()) {
-    const EdgeId chord = chords.of(i);
     if (!plan.prescribes(i)) continue;
-    spacing.divided[chord] = 1;
-    if (!plan.prescribed[i]->shares.empty()) spacing.kept[chord] = 1;
+    const PrescribedEdge& prescribed = *plan.prescribed[i];
+    spacing.divided[chords.of(i)] = 1;
+    if (!prescribed.shares.empty()) spacing.kept[chords.of(i)] = 1;
+    if (counts[i] > 0) shares[i] = PrescribedEdge::make(shape.edges[i], counts[i], prescribed.spacing).shares;
   }
+  spacing.shares = space_chords(shape, sides, chords, demand.tables, counts, shares);
   return result;
 }
 
@@ -325,16 +312,17 @@ class NodePlacer {
 
   /// Vertices come first, so that their numbers do not depend on the counts.
   void place_vertices(const FaceFlags& used) {
+    const auto place = [&](VertexId vertex) {
+      if (vertex.exists()) vertex_node(vertex, Vector3::Zero());
+    };
     for (const EdgeId i : shape_.edges.ids()) {
-      const CadEdge& edge = shape_.edges[i];
       if (!demand_.used[i]) continue;
-      if (edge.first_vertex.exists()) vertex_node(edge.first_vertex, Vector3::Zero());
-      if (edge.last_vertex.exists()) vertex_node(edge.last_vertex, Vector3::Zero());
+      place(shape_.edges[i].first_vertex);
+      place(shape_.edges[i].last_vertex);
     }
     for (const FaceId face : shape_.faces.ids()) {
       if (!used[face]) continue;
-      for (const InnerVertex& point : shape_.faces[face].inner_vertices)
-        vertex_node(point.vertex, Vector3::Zero());
+      for (const InnerVertex& point : shape_.faces[face].inner_vertices) place(point.vertex);
     }
   }
 
@@ -342,7 +330,6 @@ class NodePlacer {
     const CadEdge& edge = shape_.edges[i];
     const EdgeCurve curve(edge);
     BoundaryNodes::Edge& nodes = result_.edges[i];
-    nodes.stride = plan_.stride_of(edge, result_.stride);
     const CountTable& table = demand_.tables[i];
     const std::vector<double>& shares = division_.spacing.shares[i];
     const int segments = division_.counts.counts[i];
@@ -381,7 +368,7 @@ void borrow_nodes(const TinyFeatures& tiny, BoundaryNodes& nodes) {
     auto& edge = nodes.edges[i];
     edge.nodes = nodes.edges[tiny.edges[i]].nodes;
     edge.borrows = true;
-    if (tiny.reversed_edges[i]) std::reverse(edge.nodes.begin(), edge.nodes.end());
+    if (tiny.reversed_edges[i]) std::ranges::reverse(edge.nodes);
   }
   nodes.left_out = tiny.folded;
 }
@@ -397,7 +384,9 @@ SamplingPlan::SamplingPlan(const CadShape& shape, EdgeFlags below)
 
 BoundaryNodes sample_edges(const CadShape& shape, const SizingField& field, int stride, const FaceFlags& used,
                            const SamplingPlan& plan, ExecutionContext& context, EdgeTables* known) {
-  EdgeDemand demand = TargetFinder(shape, field, stride, plan, context, known).run(used);
+  EdgeTables unknown;
+  EdgeDemand demand =
+      TargetFinder(shape, field, stride, plan, context, known != nullptr ? *known : unknown).run(used);
   const FaceOutlines found = find_face_sides(shape, used, plan.tiny, demand.targets.wanted);
   FaceOutlines sides = found;
   Division division = divide_edges(shape, plan, demand, sides);

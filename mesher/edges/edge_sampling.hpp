@@ -24,7 +24,6 @@ struct BoundaryNodes {
   struct Edge {
     std::vector<double> parameters;  ///< one per node, ascending, both ends included; empty = edge not used
     std::vector<int> nodes;          ///< indices into `points`; the ends are the vertices' nodes
-    int stride = 1;                  ///< segments for each one of the mesh that is recombined
     bool divided = false;            ///< users prescribe the number of segments on its chord
     bool kept = false;               ///< users prescribe the spacing of its chord: the nodes stay in place
     bool borrows = false;            ///< its nodes are those of another edge (TinyFeatures)
@@ -85,8 +84,6 @@ struct SamplingPlan {
   bool along_chord(EdgeId id, const CadEdge& edge) const {
     return ignore_curvature[id] && !tiny.closed(edge);
   }
-  /// Segments of an edge for each one of the mesh that is recombined. \param all see BoundaryNodes::stride
-  int stride_of(const CadEdge& edge, int all) const { return all == 1 && edge.is_used(subdivided) ? 2 : all; }
 };
 
 /// The tables of edges by the sizing field alone, as far as they are known.

@@ -35,7 +35,7 @@ std::array<Side, 4> sides_of(const CadFace& face, const FaceSides& sides, const 
 
 /// The number of cells between four sides; none if opposite ones have different numbers of segments.
 GridSize size_of(const std::array<Side, 4>& sides) {
-  if (std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.size() < 2; })) return {};
+  if (std::ranges::any_of(sides, [](const Side& side) { return side.size() < 2; })) return {};
   if (sides[0].size() != sides[2].size() || sides[1].size() != sides[3].size()) return {};
   return {static_cast<int>(sides[0].size()) - 1, static_cast<int>(sides[1].size()) - 1};
 }

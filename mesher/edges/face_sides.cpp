@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -111,18 +110,14 @@ class SideFinder {
   }
 
   static bool is_smooth(const Walk& walk) {
-    return std::all_of(walk.turnings.begin(), walk.turnings.end(),
-                       [](double turning) { return std::abs(turning) <= smooth_turning; });
+    return std::ranges::all_of(walk.turnings,
+                               [](double turning) { return std::abs(turning) <= smooth_turning; });
   }
 
   /// Finds outlines with four corners outside and none at the holes.
   void take_holes(const std::vector<Walk>& walks, FaceSides& sides) const {
-    const auto outer =
-        std::find_if(walks.begin(), walks.end(), [](const Walk& walk) { return !is_smooth(walk); });
-    if (outer == walks.end()) return;
-    for (auto walk = walks.begin(); walk != walks.end(); ++walk) {
-      if (walk != outer && !is_smooth(*walk)) return;
-    }
+    if (std::ranges::count_if(walks, is_smooth) != std::ssize(walks) - 1) return;
+    const auto outer = std::ranges::find_if_not(walks, is_smooth);
     FaceSides found;
     take_corners(*outer, found);
     if (found.kind != GridKind::four) return;
@@ -185,7 +180,7 @@ class SideFinder {
   }
 
   static FaceSide turned(FaceSide side) {
-    std::reverse(side.begin(), side.end());
+    std::ranges::reverse(side);
     for (SideEdge& edge : side) edge.forward = !edge.forward;
     return side;
   }
@@ -204,17 +199,12 @@ class SideFinder {
     return ends;
   }
 
-  double wanted_of(const FaceSide& side) const {
-    return std::accumulate(side.begin(), side.end(), 0.0,
-                           [&](double sum, const SideEdge& edge) { return sum + wanted_[edge.edge]; });
-  }
-
   /// Cuts two sides into pairs where their vertices face each other.
   void add_pairs(const FaceSide& first, const FaceSide& second, FaceSides& sides) const {
     const std::vector<double> a = ends_of(first), b = ends_of(second);
     constexpr double of_segment = 0.4, of_side = 0.05;
-    const double near =
-        std::min(of_side, of_segment / std::max(1.0, std::max(wanted_of(first), wanted_of(second))));
+    const double wanted = std::max(sum_over(first, wanted_), sum_over(second, wanted_));
+    const double near = std::min(of_side, of_segment / std::max(1.0, wanted));
     FacingPair pair;
     std::size_t i = 0, k = 0;
     while (i < a.size() || k < b.size()) {

@@ -16,10 +16,20 @@ struct SideEdge {
 /// Consecutive edges.
 using FaceSide = std::vector<SideEdge>;
 
+/// The sum of a value over the edges of a side.
+template <class Value>
+Value sum_over(const FaceSide& side, const IdVector<EdgeId, Value>& values) {
+  Value sum = 0;
+  for (const SideEdge& edge : side) sum += values[edge.edge];
+  return sum;
+}
+
 /// Two sides that face each other across a face, both listed in the same direction.
 struct FacingPair {
   FaceSide first, second;
   FaceSide edges() const;  ///< of both
+  /// Whether a side has several edges, whose counts have a sum.
+  bool has_sum() const { return first.size() + second.size() > 2; }
 };
 
 /// The outlines that grids fill. Only this module, which decides, and face_grid.cpp, which makes the grids,

@@ -1,6 +1,6 @@
 /// Follows prescribed divisions from edge to opposite edge.
 
-#include "mesher/edges/grid_rows.hpp"
+#include "mesher/edges/chords.hpp"
 
 #include <algorithm>
 #include <set>
@@ -17,7 +17,7 @@ constexpr double largest_row_ratio = 4;
 EdgeId opposite(const FaceSides& sides, EdgeId edge) {
   if (!sides.is_filled()) return {};
   for (const FacingPair& pair : sides.facing) {
-    if (pair.first.size() != 1 || pair.second.size() != 1) continue;
+    if (pair.has_sum()) continue;
     if (pair.first[0].edge == edge) return pair.second[0].edge;
     if (pair.second[0].edge == edge) return pair.first[0].edge;
   }
@@ -55,7 +55,7 @@ EdgeFlags find_grid_rows(const CadShape& shape, const FaceOutlines& sides, const
     int segments = prescribed[edge]->segments;
     for (const EdgeId member : chord)
       if (!prescribed[edge]->is_fixed() && fixed_number(member) > 0) segments = fixed_number(member);
-    divided[edge] = std::all_of(chord.begin(), chord.end(), [&](EdgeId member) {
+    divided[edge] = std::ranges::all_of(chord, [&](EdgeId member) {
       if (const int number = fixed_number(member)) return number == segments;
       const double own = std::min(size, value_or(options.edge_sizes, shape.edges[member].number, size));
       const double wanted = std::max(1.0, shape.edges[member].length / own);

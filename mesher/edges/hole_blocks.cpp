@@ -66,9 +66,8 @@ class HoleFitter {
     std::vector<const CadWire*> holes;
     for (const CadWire& wire : face.wires) holes.push_back(&wire);
     holes.erase(holes.begin() + sides.outer);
-    const double side = length_of(face.wires[sides.outer]) / (2 * (now.columns + now.rows));
-    if (!std::all_of(holes.begin(), holes.end(),
-                     [&](const CadWire* hole) { return has_size_of(*hole, side); }))
+    const double side = length_of(shape_, face.wires[sides.outer]) / (2 * (now.columns + now.rows));
+    if (!std::ranges::all_of(holes, [&](const CadWire* hole) { return has_size_of(*hole, side); }))
       return false;
     std::vector<HolePlace> shares;
     for (const HoleShares& hole : shares_of_holes(shape_, face, sides))
@@ -78,8 +77,8 @@ class HoleFitter {
     std::vector<HoleBlock> blocks;
     for (const HolePlace& share : shares) {
       const Vector2 scale(grid.columns, grid.rows);
-      const auto block =
-          block_of({share.low.cwiseProduct(scale), share.high.cwiseProduct(scale), share.even}, 0, grid);
+      const Eigen::AlignedBox2d box(share.box.min().cwiseProduct(scale), share.box.max().cwiseProduct(scale));
+      const auto block = block_of({box, share.even}, 0, grid);
       if (!block) return false;
       blocks.push_back(*block);
     }
@@ -87,7 +86,7 @@ class HoleFitter {
     bool any = scale_counts(sides.facing[0], static_cast<double>(grid.columns) / now.columns);
     any |= scale_counts(sides.facing[1], static_cast<double>(grid.rows) / now.rows);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      const double length = length_of(*holes[i]);
+      const double length = length_of(shape_, *holes[i]);
       for (const Coedge& coedge : holes[i]->coedges)
         any |= want(coedge.edge, shape_.edges[coedge.edge].length / length * blocks[i].around());
     }
@@ -97,10 +96,7 @@ class HoleFitter {
  private:
   /// Segments along the facing sides 0 and 2 (`which` = 0) or 1 and 3 (1); 0 if sides are cut into parts.
   int count_of(const FaceSides& sides, std::size_t which) const {
-    if (sides.facing.size() != 2) return 0;
-    int sum = 0;
-    for (const SideEdge& edge : sides.facing[which].first) sum += chosen_.counts[edge.edge];
-    return sum;
+    return sides.facing.size() == 2 ? sum_over(sides.facing[which].first, chosen_.counts) : 0;
   }
 
   /// The count near `now` that suits the holes best. \param axis 0 = columns, 1 = rows
@@ -113,7 +109,7 @@ class HoleFitter {
       if (count < fewest) continue;
       double cost = of_change * std::abs(std::log(static_cast<double>(count) / now));
       for (const HolePlace& share : shares) {
-        cost += across(share.low[axis] * count, share.high[axis] * count, share.even).cost /
+        cost += across(share.box.min()[axis] * count, share.box.max()[axis] * count, share.even).cost /
                 static_cast<double>(shares.size());
       }
       if (cost >= least) continue;
@@ -123,16 +119,10 @@ class HoleFitter {
     return best;
   }
 
-  double length_of(const CadWire& wire) const {
-    double length = 0;
-    for (const Coedge& coedge : wire.coedges) length += shape_.edges[coedge.edge].length;
-    return length;
-  }
-
   bool has_size_of(const CadWire& wire, double side) const {
     double segments = 0;
     for (const Coedge& coedge : wire.coedges) segments += tables_[coedge.edge].total();
-    const double ratio = length_of(wire) / std::max(segments, 1.0) / side;
+    const double ratio = length_of(shape_, wire) / std::max(segments, 1.0) / side;
     return ratio > least_hole_ratio && ratio < largest_hole_ratio;
   }
 
@@ -192,14 +182,14 @@ std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& fa
 }
 
 std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSize& grid) {
-  const Vector2 extent = hole.high - hole.low;
-  const Vector2 middle = 0.5 * (hole.low + hole.high);
+  const Vector2 &low = hole.box.min(), &high = hole.box.max();
+  const Vector2 extent = hole.box.sizes(), middle = hole.box.center();
   const bool is_inside =
       middle.x() > 0 && middle.y() > 0 && middle.x() < grid.columns && middle.y() < grid.rows;
   if (nodes % 2 != 0 || !is_inside || !(extent.maxCoeff() < largest_hole)) return std::nullopt;
   HoleBlock block;
-  block.columns = across(hole.low.x(), hole.high.x(), hole.even).cells;
-  block.rows = across(hole.low.y(), hole.high.y(), hole.even).cells;
+  block.columns = across(low.x(), high.x(), hole.even).cells;
+  block.rows = across(low.y(), high.y(), hole.even).cells;
   if (nodes > 0) {
     // Spread the excess or shortage over both directions.
     const int excess = nodes / 2 - block.columns - block.rows;
@@ -207,8 +197,8 @@ std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSi
     block.rows = nodes / 2 - block.columns;
   }
   if (!has_room(extent.x(), block.columns) || !has_room(extent.y(), block.rows)) return std::nullopt;
-  block.column = start_of(hole.low.x(), hole.high.x(), block.columns, grid.columns);
-  block.row = start_of(hole.low.y(), hole.high.y(), block.rows, grid.rows);
+  block.column = start_of(low.x(), high.x(), block.columns, grid.columns);
+  block.row = start_of(low.y(), high.y(), block.rows, grid.rows);
   return block;
 }
 

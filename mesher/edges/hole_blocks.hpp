@@ -2,7 +2,6 @@
 /// Holes in grids: which cells make room for a hole. For plates with holes, whose mean q rises from 0.915 to
 /// 0.962; no gain elsewhere (decision 75). Internal.
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,22 +20,11 @@ struct HoleShares {
 /// no area.
 std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& face, const FaceSides& sides);
 
-/// The bounding box of a hole in a grid, in cells counted from the first column and row.
+/// Where a hole lies in a grid: its bounding box, in cells counted from the first column and row.
 struct HolePlace {
-  Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  Eigen::AlignedBox2d box;
   /// The hole has a vertex straight beside, above or below its center, so the block needs nodes there too.
   bool even = false;
-
-  void include(const Vector2& cell) {
-    low = low.cwiseMin(cell);
-    high = high.cwiseMax(cell);
-  }
-  /// Sets `even` if a vertex lies so. All points of the hole must be included.
-  void note_vertex(const Vector2& cell) {
-    constexpr double straight = 0.05;  // distance from the axis over the hole's size
-    const Vector2 off = (cell - 0.5 * (low + high)).cwiseQuotient(high - low);
-    even |= off.cwiseAbs().minCoeff() < straight;
-  }
 };
 
 /// Numbers of cells of a grid.
@@ -61,9 +49,13 @@ std::optional<HoleBlock> block_of(const HolePlace& hole, int nodes, const GridSi
 /// The place of a hole. \param cell_at turns shares into cells.
 template <class CellAt>
 HolePlace place_of(const HoleShares& hole, CellAt&& cell_at) {
+  constexpr double straight = 0.05;  // distance from the axis over the hole's size
   HolePlace place;
-  for (const Vector2& point : hole.points) place.include(cell_at(point));
-  for (const Vector2& vertex : hole.vertices) place.note_vertex(cell_at(vertex));
+  for (const Vector2& point : hole.points) place.box.extend(cell_at(point));
+  for (const Vector2& vertex : hole.vertices) {
+    const Vector2 off = (cell_at(vertex) - place.box.center()).cwiseQuotient(place.box.sizes());
+    place.even |= off.cwiseAbs().minCoeff() < straight;
+  }
   return place;
 }
 

@@ -1,7 +1,7 @@
 /// Leaves out small holes: finds the loops inside faces, and the faces that such loops alone connect with the
 /// rest.
 
-#include "mesher/edges/hole_filling.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
@@ -70,8 +70,7 @@ class HoleFinder {
       result.push_back(*hole);
     }
     std::erase_if(result, [&](const Hole& hole) {
-      return std::any_of(hole.loops.begin(), hole.loops.end(),
-                         [&](std::size_t i) { return taken.contains(loops_[i].host); });
+      return std::ranges::any_of(hole.loops, [&](std::size_t i) { return taken.contains(loops_[i].host); });
     });
     return result;
   }
@@ -123,16 +122,10 @@ class HoleFinder {
 
   /// \return false if the loop is larger than the holes to fill, or if something that stays lies on it.
   bool measure(const CadFace& host, const CadWire& wire, Loop& loop) const {
-    std::vector<Vector3> points;
-    double length = 0;
-    for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      if (stays(edge)) return false;
-      length += edge.length;
-      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
-      points.insert(points.end(), along.begin(), along.end() - 1);
-    }
-    if (length > 2 * std::numbers::pi * diameter_) return false;  // of any outline
+    if (std::ranges::any_of(wire.coedges, [&](const Coedge& coedge) { return stays(coedge.edge); }))
+      return false;
+    if (length_of(shape_, wire) > 2 * std::numbers::pi * diameter_) return false;  // of any outline
+    const std::vector<Vector3> points = points_around(shape_, wire, samples);
     for (const Vector3& a : points) {
       for (const Vector3& b : points) loop.diameter = std::max(loop.diameter, (a - b).norm());
     }
@@ -145,21 +138,14 @@ class HoleFinder {
     return area.norm() > 0;
   }
 
-  /// Whether users name the edge or one of its vertices.
-  bool stays(const CadEdge& edge) const {
-    return sizing_.names_edge(edge.number) || sizing_.names_vertex(edge.first_vertex.number()) ||
-           sizing_.names_vertex(edge.last_vertex.number());
-  }
-
+  bool stays(EdgeId edge) const { return is_named(shape_.edges[edge], sizing_); }
   bool stays(FaceId face) const {
-    const auto edges = shape_.faces[face].edges();
     return sizing_.names_face(face.number()) ||
-           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return stays(shape_.edges[edge]); });
+           std::ranges::any_of(shape_.faces[face].edges(), [&](EdgeId edge) { return stays(edge); });
   }
 
   /// The faces behind a loop, up to the next loops. Nothing if they are not a hole to be filled.
   std::optional<Hole> hole_at(std::size_t first) const {
-    Hole hole;
     std::set<std::size_t> loops{first};
     std::set<FaceId> faces;
     std::vector<FaceId> next;
@@ -181,11 +167,9 @@ class HoleFinder {
       }
     }
     if (loops.size() > 2) return std::nullopt;
-    for (const std::size_t loop : loops) {
-      if (faces.contains(loops_[loop].host)) return std::nullopt;
-    }
-    hole.loops.assign(loops.begin(), loops.end());
-    hole.faces.assign(faces.begin(), faces.end());
+    if (std::ranges::any_of(loops, [&](std::size_t loop) { return faces.contains(loops_[loop].host); }))
+      return std::nullopt;
+    Hole hole{{loops.begin(), loops.end()}, {faces.begin(), faces.end()}};
     return hole.faces.empty() || is_hole_or_boss(hole) ? std::optional(hole) : std::nullopt;
   }
 
@@ -288,8 +272,8 @@ void fill(const HoleFinder& finder, const std::vector<Hole>& holes, CadShape& sh
       wires[loop.host].insert(loop.wire);
     }
     for (const FaceId face : hole.faces) leave_out(face, filled, shape, result);
-    std::sort(filled.in.begin(), filled.in.end());
-    std::sort(filled.faces.begin(), filled.faces.end());
+    std::ranges::sort(filled.in);
+    std::ranges::sort(filled.faces);
     result.holes.push_back(std::move(filled));
   }
   for (const auto& [host, which] : wires) result.areas[host] += close(shape.faces[host], which, shape);
@@ -309,8 +293,7 @@ SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const S
     if (holes.empty()) break;
     fill(finder, holes, *shape, result);
   }
-  std::stable_sort(result.holes.begin(), result.holes.end(),
-                   [](const auto& a, const auto& b) { return a.in < b.in; });
+  std::ranges::stable_sort(result.holes, {}, &ShellMesh::FilledHole::in);
   return result;
 }
 

@@ -1,7 +1,7 @@
 /// A T-join (Edmonds & Johnson, Matching, Euler tours and the Chinese postman, 1973), approximated by a
 /// minimum-weight basis over GF(2), which holds for edges of any number of faces.
 
-#include "mesher/edges/parity.hpp"
+#include "mesher/edges/count_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,7 @@ EdgeFlags make_even(const IdVector<EdgeId, ParityEdge>& edges, const FaceFlags& 
   for (const EdgeId edge : edges.ids()) {
     if (std::isfinite(edges[edge].cost) && !edges[edge].faces.empty()) order.push_back(edge);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](EdgeId a, EdgeId b) { return edges[a].cost < edges[b].cost; });
+  std::ranges::stable_sort(order, {}, [&](EdgeId edge) { return edges[edge].cost; });
   using Bits = boost::dynamic_bitset<>;
   struct Row {
     Bits faces, edges;

@@ -170,7 +170,7 @@ class Placing {
   OnFace nearest_face(const Vector3& p) const {
     std::vector<std::pair<double, FaceId>> order;
     for (const auto& [face, box] : faces_) order.emplace_back(distance_to(box, p), face);
-    std::stable_sort(order.begin(), order.end());
+    std::ranges::stable_sort(order);
     OnFace nearest;
     const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(to_point(p)).Shape();
     for (const auto& [least, face] : order) {

@@ -5,6 +5,8 @@
 
 #include "geometry/cad/cad_model.hpp"
 #include "geometry/cad/ids.hpp"
+#include "geometry/sizing/sizing_field.hpp"
+#include "geometry/sizing/sizing_options.hpp"
 #include "mesher/edges/tiny_features.hpp"
 #include "mesher/mesh/mesh_types.hpp"
 
@@ -13,6 +15,12 @@ namespace quadrille {
 /// An edge between two faces that are meshed as one. \param pieces see points_along()
 inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge, int pieces) {
   return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)};
+}
+
+/// Whether a setting names an edge or one of its vertices.
+inline bool is_named(const CadEdge& edge, const SizingOptions& sizing) {
+  return sizing.names_edge(edge.number) || sizing.names_vertex(edge.first_vertex.number()) ||
+         sizing.names_vertex(edge.last_vertex.number());
 }
 
 /// A model without what need not be meshed. Faces, edges and vertices keep their numbers.
@@ -34,5 +42,23 @@ struct SimplifiedModel {
     return faces;
   }
 };
+
+/// Fills each hole that is a loop of its own inside one face, or one at each of its two ends, if no point of
+/// the loop is farther than `diameter` from another and no point of the hole farther from its axis. A boss is
+/// removed in the same way if it is no higher than that. What the sizes name stays: edges, vertices and faces
+/// with sizes, segments, or kept. The model itself where there is nothing to fill. Complexity: linear in
+/// edges, for each hole inside a hole again.
+SimplifiedModel fill_holes(const CadModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                           double diameter);
+
+/// Makes one face of six or more coplanar faces, facets of a program rather than a partition that somebody
+/// drew, divided by edges that do harm: the edge is shorter than the least size, or one of the two faces is
+/// narrower than the global size or has a corner below 40 degrees at an end of the edge, or the outline would
+/// touch itself there. What was joined before counts as one face, so that a face stays once the parts beside
+/// it are wide enough. The first face has the outline of all and keeps its number; the others are gone, and
+/// the edges between them belong to no face. Faces and edges that the sizes name stay, and so do edges at
+/// other than two faces, and faces whose common outline would touch itself. O(n log n) in edges.
+void join_coplanar_faces(SimplifiedModel& model, const FaceFlags& used, const SizingOptions& sizing,
+                         const SizeLimits& limits);
 
 }  // namespace quadrille

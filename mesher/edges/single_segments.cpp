@@ -1,10 +1,10 @@
 /// One segment for short edges, where all faces stay even: a T-join over the chords that could have one.
 
-#include "mesher/edges/single_segments.hpp"
+#include "mesher/edges/edge_counts.hpp"
 
 #include <map>
 
-#include "mesher/edges/parity.hpp"
+#include "mesher/edges/count_balance.hpp"
 
 namespace quadrille {
 

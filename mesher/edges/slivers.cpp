@@ -12,7 +12,6 @@
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
 #include "mesher/edges/edge_division.hpp"
-#include "mesher/edges/spikes.hpp"
 #include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
@@ -26,9 +25,9 @@ constexpr std::size_t most_edges = 40;
 struct LongEdge : CurveSamples {
   EdgeId edge;
   bool forward = true;
-  VertexId from, to;       // vertices, in the direction of the wire
-  int start = 0, end = 0;  // junctions
-  double slack = 0;        // how far the curve may be from the line through the samples
+  VertexId from, to;  // vertices, in the direction of the wire
+  int next = 0;       // index of the long edge that follows in the wire
+  double slack = 0;   // how far the curve may be from the line through the samples
 };
 
 /// The place of a chain that is nearest to a point.
@@ -55,8 +54,8 @@ struct TubeFinder {
         if (coedge.internal || !has_ends(edge)) return std::nullopt;
         if (is_small(edge, width)) {
           tube.rims.push_back(coedge.edge);
-          has_neighbor |= std::any_of(edge.faces.begin(), edge.faces.end(),
-                                      [&](FaceId other) { return other != id && is_large(other); });
+          has_neighbor |=
+              std::ranges::any_of(edge.faces, [&](FaceId other) { return other != id && is_large(other); });
         } else if (!seam.exists() || seam == coedge.edge) {
           seam = coedge.edge;
         } else {
@@ -71,8 +70,8 @@ struct TubeFinder {
 
   bool is_large(FaceId face) const {
     const auto edges = shape.faces[face].edges();
-    return used[face] && !std::all_of(edges.begin(), edges.end(),
-                                      [&](EdgeId edge) { return is_small(shape.edges[edge], width); });
+    return used[face] &&
+           !std::ranges::all_of(edges, [&](EdgeId edge) { return is_small(shape.edges[edge], width); });
   }
 
   /// Whether a face stays within the width of an edge, at samples all over it.
@@ -82,8 +81,8 @@ struct TubeFinder {
     const double spacing = edge.length / (places * samples);
     const FaceSurface surface(face);
     const auto is_near = [&](const Vector3& point) {
-      return std::any_of(on_edge.begin(), on_edge.end(),
-                         [&](const Vector3& other) { return (point - other).norm() < width + spacing; });
+      return std::ranges::any_of(
+          on_edge, [&](const Vector3& other) { return (point - other).norm() < width + spacing; });
     };
     for (int i = 0; i <= samples; ++i) {
       for (int k = 0; k <= samples; ++k) {
@@ -96,13 +95,14 @@ struct TubeFinder {
   }
 };
 
-std::vector<int> range(int from, int to) {
+/// The indices from one up to another in a ring of `n`.
+std::vector<int> range(int from, int to, int n) {
   std::vector<int> result;
-  for (int i = from; i < to; ++i) result.push_back(i);
+  for (int i = from; i < to; ++i) result.push_back(i % n);
   return result;
 }
 
-/// Finds out whether a face is narrow between chains of its long edges.
+/// Finds out whether a face is narrow between chains of its long edges. Junction i lies before long edge i.
 class SliverFinder {
  public:
   SliverFinder(const CadShape& shape, const FaceFlags& used, double width, FaceId id)
@@ -123,13 +123,11 @@ class SliverFinder {
     const int n = static_cast<int>(edges_.size());
     if (face.wires.size() == 2) {
       if (first_wire == edges_.size()) return std::nullopt;
-      return zip(range(0, static_cast<int>(first_wire)), range(static_cast<int>(first_wire), n), cuts);
+      return zip(range(0, static_cast<int>(first_wire), n), range(static_cast<int>(first_wire), n, n), cuts);
     }
     for (int first = 0; first < n; ++first) {
       for (int second = first + 1; second < n; ++second) {
-        std::vector<int> other = range(second, n);
-        for (int k = 0; k < first; ++k) other.push_back(k);
-        if (auto sliver = zip(range(first, second), other, cuts)) return sliver;
+        if (auto sliver = zip(range(first, second, n), range(second, n + first, n), cuts)) return sliver;
         if (!cuts.empty()) return std::nullopt;
       }
     }
@@ -137,10 +135,9 @@ class SliverFinder {
   }
 
  private:
-  /// Adds the long edges of a wire. Junction i lies before long edge i.
   bool add_wire(const CadWire& wire) {
     if (!wire.ordered || wire.coedges.size() > most_edges) return false;
-    const int first = static_cast<int>(edges_.size());
+    const std::size_t first = edges_.size();
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge];
       if (coedge.internal || !has_ends(edge)) return false;
@@ -150,13 +147,11 @@ class SliverFinder {
       added.forward = coedge.forward;
       added.from = shape_.start_of(coedge);
       added.to = shape_.end_of(coedge);
+      added.next = static_cast<int>(edges_.size());
     }
-    const int n = static_cast<int>(edges_.size());
-    for (int i = first; i < n; ++i) {
-      edges_[i].start = i;
-      edges_[i].end = i + 1 < n ? i + 1 : first;
-    }
-    return n > first;
+    if (edges_.size() == first) return false;
+    edges_.back().next = static_cast<int>(first);
+    return true;
   }
 
   /// Whether no edge is a seam and at least one of them belongs to another face.
@@ -204,15 +199,12 @@ class SliverFinder {
 
   /// Whether the middle of the longest edge is near another one.
   bool may_be_narrow() const {
-    int longest = 0;
-    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
-      if (shape_.edges[edges_[i].edge].length > shape_.edges[edges_[longest].edge].length) longest = i;
-    }
-    const Vector3 middle = edges_[longest].points[edges_[longest].points.size() / 2];
-    for (int i = 0; i < static_cast<int>(edges_.size()); ++i) {
-      if (i != longest && nearest(middle, {i}).distance < width_ + edges_[i].slack) return true;
-    }
-    return false;
+    const auto longest = std::ranges::max_element(
+        edges_, {}, [&](const LongEdge& edge) { return shape_.edges[edge.edge].length; });
+    const Vector3 middle = longest->points[longest->points.size() / 2];
+    return std::ranges::any_of(edges_, [&](const LongEdge& edge) {
+      return &edge != &*longest && edge.nearest(middle).distance < width_ + edge.slack;
+    });
   }
 
   double length_of(const std::vector<int>& chain) const {
@@ -240,10 +232,8 @@ class SliverFinder {
     if (std::abs(length_of(chain) - length_of(other)) > 0.2 * length + 2 * width_) return std::nullopt;
     if (!lies_along(chain, other, reach) || !lies_along(other, chain, reach)) return std::nullopt;
     std::map<int, int> match;  // junctions of the two chains, both ways
-    const bool is_ring = edges_[chain.back()].end == edges_[chain.front()].start;
-    if (!is_ring) {
-      for (const int end : {edges_[chain.front()].start, edges_[chain.back()].end}) match[end] = end;
-    }
+    const int start = chain.front(), end = edges_[chain.back()].next;
+    if (start != end) match = {{start, start}, {end, end}};  // not a ring
     std::vector<EdgeCut> found;
     if (!match_junctions(chain, other, match, found) || !match_junctions(other, chain, match, found))
       return std::nullopt;
@@ -257,17 +247,16 @@ class SliverFinder {
   /// Finds the junction of the other chain that faces each junction, or the place to divide an edge at.
   bool match_junctions(const std::vector<int>& chain, const std::vector<int>& other,
                        std::map<int, int>& match, std::vector<EdgeCut>& cuts) const {
-    for (const int i : chain) {
-      const int junction = edges_[i].start;
+    for (const int junction : chain) {
       if (match.contains(junction)) continue;
-      const Vector3& p = edges_[i].points.front();
+      const Vector3& p = edges_[junction].points.front();
       const Nearest place = nearest(p, other);
       if (!(place.distance < width_)) return false;
       const LongEdge& edge = edges_[place.edge];
       const double to_start = (edge.points.front() - place.point).norm(),
                    to_end = (edge.points.back() - place.point).norm();
       if (std::min(to_start, to_end) < width_) {
-        const int there = to_start < to_end ? edge.start : edge.end;
+        const int there = to_start < to_end ? place.edge : edge.next;
         if (match.contains(there)) return false;
         match[junction] = there;
         match[there] = junction;
@@ -285,17 +274,15 @@ class SliverFinder {
     sliver.face = id_;
     for (const int i : chain) {
       const LongEdge& edge = edges_[i];
-      const auto facing = std::find_if(other.begin(), other.end(), [&](int k) {
-        return edges_[k].start == match.at(edge.end) && edges_[k].end == match.at(edge.start);
-      });
-      if (facing == other.end()) return std::nullopt;
-      const LongEdge& across = edges_[*facing];
+      const int facing = match.at(edge.next);
+      const LongEdge& across = edges_[facing];
+      if (std::ranges::find(other, facing) == other.end() || across.next != match.at(i)) return std::nullopt;
       const bool lends = shape_.edges[edge.edge].is_used_beside(id_, used_);
       sliver.pairs.push_back(
           {lends ? edge.edge : across.edge, lends ? across.edge : edge.edge, edge.forward == across.forward});
-      if (match.at(edge.start) != edge.start) sliver.ties.push_back({edge.from, across.to});
+      if (match.at(i) != i) sliver.ties.push_back({edge.from, across.to});
     }
-    for (const LongEdge& edge : edges_) sliver.joints.push_back({edge.to, edges_[edge.end].from});
+    for (const LongEdge& edge : edges_) sliver.joints.push_back({edge.to, edges_[edge.next].from});
     return sliver;
   }
 
@@ -320,9 +307,7 @@ std::vector<Sliver> find_slivers_of(const CadShape& shape, const FaceFlags& used
 /// A copy of the shape with edges divided. Of cuts no farther apart than `nearest`, the first counts.
 std::shared_ptr<const CadShape> divided(const CadShape& shape, std::vector<EdgeCut> cuts, double nearest) {
   auto result = std::make_shared<CadShape>(shape);
-  std::stable_sort(cuts.begin(), cuts.end(), [](const EdgeCut& a, const EdgeCut& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.parameter < b.parameter;
-  });
+  std::ranges::stable_sort(cuts, {}, [](const EdgeCut& cut) { return std::pair(cut.edge, cut.parameter); });
   for (std::size_t i = 0; i < cuts.size();) {
     std::vector<double> parameters;
     Vector3 last = Vector3::Zero();

@@ -4,6 +4,8 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "geometry/cad/cad_shape.hpp"
@@ -54,6 +56,19 @@ struct Sliver {
   std::vector<EdgeId> rims;  ///< edges at the ends of a tube, which must become points
   bool is_spike = false;     ///< the rest of the face stays, and no longer uses the edges of the pair
 };
+
+/// Ends of edges; true = the last vertex.
+using EdgeEnds = std::set<std::pair<EdgeId, bool>>;
+
+/// The spikes of a face: parts between two edges that meet, of one wire or of two that touch, as long as
+/// these stay closer than `width`, over more than 2.5 times their distance. Cusps, and ends of fillets that
+/// run out. Without them an eighth fewer quads are outside the limits on real parts (decision 67).
+/// Edges shorter than the width are passed over, and corners between edges of this face alone.
+/// \param used 1 = the face is meshed \param width model units; 0 = none is found \param taken ends of edges
+/// at spikes of other faces, which none of this one has; those found are added \param cuts gets the places
+/// that have to be divided first, so that a spike lies between two whole edges
+std::vector<Sliver> find_spikes(const CadShape& shape, const FaceFlags& used, FaceId face, double width,
+                                EdgeEnds& taken, std::vector<EdgeCut>& cuts);
 
 /// The slivers among the used faces whose vertices all face each other, see divided_at_slivers(), and the
 /// spikes of the other faces, see find_spikes().

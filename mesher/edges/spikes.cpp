@@ -1,7 +1,7 @@
 /// Walks both edges out of a narrow corner to where they are one width apart, or to where the shorter one
 /// ends.
 
-#include "mesher/edges/spikes.hpp"
+#include "mesher/edges/slivers.hpp"
 
 #include <algorithm>
 #include <map>
@@ -38,10 +38,6 @@ std::optional<CurvePlace> limit_reached(const Arm& arm, const Arm& other, double
   return CurvePlace{limit, low, arm.curve.point(low)};
 }
 
-bool lie_together(const Arm& one, const Arm& other, double limit) {
-  return !limit_reached(one, other, limit) && !limit_reached(other, one, limit);
-}
-
 class SpikeFinder {
  public:
   SpikeFinder(const CadShape& shape, const FaceFlags& used, FaceId id, double width, EdgeEnds& taken,
@@ -72,7 +68,7 @@ class SpikeFinder {
  private:
   bool may_narrow(const Coedge& coedge) const {
     const CadEdge& edge = shape_.edges[coedge.edge];
-    return !coedge.internal && has_ends(edge) && std::count(edge.faces.begin(), edge.faces.end(), id_) == 1;
+    return !coedge.internal && has_ends(edge) && std::ranges::count(edge.faces, id_) == 1;
   }
 
   void add(const Coedge& before, const Coedge& after) {
@@ -93,9 +89,10 @@ class SpikeFinder {
     if (!(to.dot(from) > least_cosine * to.norm() * from.norm())) return false;
     const Arm one = arm_of(a, !before.forward, std::move(first)),
               two = arm_of(b, after.forward, std::move(second));
-    const double narrow = std::min(a.length, b.length) / least_slenderness;
+    const double narrow = std::min(a.length, b.length) / least_slenderness, close = std::min(width_, narrow);
     const Vector3 &last = one.points.back(), &other_last = two.points.back();
-    if ((last - other_last).norm() < width_ && lie_together(one, two, std::min(width_, narrow))) {
+    if ((last - other_last).norm() < width_ && !limit_reached(one, two, close) &&
+        !limit_reached(two, one, close)) {
       if (!lies_between(before, one.parameters.back(), one.curve, other_last)) return false;
       // Vertices that share a node have it where the first of them lies: on the edge that keeps its nodes.
       const VertexId end = shape_.start_of(before), other_end = shape_.end_of(after);

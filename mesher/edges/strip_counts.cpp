@@ -87,7 +87,7 @@ bool StripRefiner::refine(const FaceOutlines& sides, const EdgeCounts& chosen, c
             result.narrowest,
             shortest_segment(length, spacing.shares[edge.edge], tables[edge.edge], chosen.counts[edge.edge]));
       }
-      for (const SideEdge& edge : pair.first) result.rows += chosen.counts[edge.edge];
+      result.rows += sum_over(pair.first, chosen.counts);
     }
     return result;
   };

@@ -54,14 +54,13 @@ class HarmFinder {
     const auto is_left = [&](const Coedge& coedge) { return !is_gone(id, coedge); };
     const auto is_open = [&](const Coedge& coedge) {
       const auto& faces = shape_.edges[coedge.edge].faces;
-      return std::any_of(faces.begin(), faces.end(), [&](FaceId other) {
-        return other != id && used_[other] && !tiny_.merged_faces[other];
-      });
+      return std::ranges::any_of(
+          faces, [&](FaceId other) { return other != id && used_[other] && !tiny_.merged_faces[other]; });
     };
     const auto edges = shape_.faces[id].edges();
-    return hole.ordered && std::none_of(hole.coedges.begin(), hole.coedges.end(), is_left) &&
-           std::none_of(hole.coedges.begin(), hole.coedges.end(), is_open) &&
-           std::any_of(edges.begin(), edges.end(), [&](EdgeId edge) { return tiny_.has(id, edge); });
+    return hole.ordered && std::ranges::none_of(hole.coedges, is_left) &&
+           std::ranges::none_of(hole.coedges, is_open) &&
+           std::ranges::any_of(edges, [&](EdgeId edge) { return tiny_.has(id, edge); });
   }
 
   /// Whether the rest of a loop is too small for elements.
@@ -85,19 +84,11 @@ class HarmFinder {
     const auto is_free = [&](const Coedge& coedge) {
       return !is_gone(id, coedge) && shape_.edges[coedge.edge].faces.size() == 1;
     };
-    if (std::none_of(wire.coedges.begin(), wire.coedges.end(), is_free) ||
-        std::none_of(wire.coedges.begin(), wire.coedges.end(),
-                     [&](const Coedge& c) { return is_gone(id, c); }))
+    if (std::ranges::none_of(wire.coedges, is_free) ||
+        std::ranges::none_of(wire.coedges, [&](const Coedge& c) { return is_gone(id, c); }))
       return false;
-    std::vector<Vector3> loop;
-    double length = 0;
-    for (const Coedge& coedge : wire.coedges) {
-      const CadEdge& edge = shape_.edges[coedge.edge];
-      const std::vector<Vector3> along = points_along(edge, samples, coedge.forward);
-      loop.insert(loop.end(), along.begin(), along.end() - 1);
-      length += edge.length;
-    }
-    return vector_area(loop).norm() < 0.5 * length * hardly * reach_;
+    const double area = vector_area(points_around(shape_, wire, samples)).norm();
+    return area < 0.5 * length_of(shape_, wire) * hardly * reach_;
   }
 
   /// Finds edges of a face that share their nodes, since the two sides of a slot must not become one. Two
@@ -145,8 +136,7 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
   hold(held, fine);
   for (const FaceId face : used.ids()) {
     const auto edges = shape.faces[face].edges();
-    slivers_.kept[face] =
-        std::all_of(edges.begin(), edges.end(), [&](EdgeId edge) { return fine[edge] != 0; });
+    slivers_.kept[face] = std::ranges::all_of(edges, [&](EdgeId edge) { return fine[edge] != 0; });
   }
   choose(fine);
   while (keep_harmed()) {
@@ -155,18 +145,15 @@ SuppressedFeatures::SuppressedFeatures(const CadShape& shape, const FaceFlags& u
 
 /// Keeps the edges that end at the vertices, and the faces that would become edges there.
 void SuppressedFeatures::hold(const std::vector<VertexId>& held, EdgeFlags& fine) {
-  EdgeFlags ends(shape_.edges.size());
-  for (const EdgeId id : ends.ids()) {
+  const auto ends_there = [&](EdgeId id) {
     const CadEdge& edge = shape_.edges[id];
-    ends[id] = std::any_of(held.begin(), held.end(), [&](VertexId vertex) {
-      return edge.first_vertex == vertex || edge.last_vertex == vertex;
-    });
-    fine[id] |= ends[id];
-  }
-  for (const Sliver& sliver : slivers_.slivers) {
-    for (const EdgeId edge : shape_.faces[sliver.face].edges())
-      if (ends[edge]) keep_face(sliver.face, "a node is placed at its boundary");
-  }
+    return std::ranges::any_of(
+        held, [&](VertexId vertex) { return edge.first_vertex == vertex || edge.last_vertex == vertex; });
+  };
+  for (const EdgeId edge : fine.ids()) fine[edge] |= ends_there(edge);
+  for (const Sliver& sliver : slivers_.slivers)
+    if (std::ranges::any_of(shape_.faces[sliver.face].edges(), ends_there))
+      keep_face(sliver.face, "a node is placed at its boundary");
 }
 
 TinyFeatures SuppressedFeatures::find(double length) const {
@@ -181,8 +168,7 @@ void SuppressedFeatures::choose(const EdgeFlags& fine) {
     if (!fine[id] && edge.is_used(used_) && has_ends(edge) && edge.length > 0 && is_small(edge, reach_))
       candidates.push_back(id);
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [&](EdgeId a, EdgeId b) { return shape_.edges[a].length < shape_.edges[b].length; });
+  std::ranges::stable_sort(candidates, {}, [&](EdgeId edge) { return shape_.edges[edge].length; });
   IdVector<VertexId, VertexId> cluster;
   IdVector<VertexId, std::vector<VertexId>> members;
   for (const VertexId vertex : shape_.vertices.ids()) {
@@ -196,11 +182,10 @@ void SuppressedFeatures::choose(const EdgeFlags& fine) {
       continue;
     }
     const auto fits = [&](VertexId p) {
-      return std::all_of(members[b].begin(), members[b].end(), [&](VertexId q) {
-        return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_;
-      });
+      return std::ranges::all_of(
+          members[b], [&](VertexId q) { return (shape_.vertices[p] - shape_.vertices[q]).norm() <= reach_; });
     };
-    if (!std::all_of(members[a].begin(), members[a].end(), fits)) continue;
+    if (!std::ranges::all_of(members[a], fits)) continue;
     edges_[edge] = 1;
     for (const VertexId vertex : members[b]) cluster[vertex] = a;
     members[a].insert(members[a].end(), members[b].begin(), members[b].end());
@@ -258,7 +243,7 @@ bool SuppressedFeatures::keep_around(FaceId face, const std::vector<EdgeId>& edg
   };
   keep(face);
   for (const EdgeId id : shape_.faces[face].edges()) {
-    if (!edges.empty() && std::find(edges.begin(), edges.end(), id) == edges.end()) continue;
+    if (!edges.empty() && std::ranges::find(edges, id) == edges.end()) continue;
     const CadEdge& edge = shape_.edges[id];
     here.insert({tiny.end(edge.first_vertex), tiny.end(edge.last_vertex)});
     for (const FaceId other : edge.faces) keep(other);

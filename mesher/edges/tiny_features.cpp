@@ -43,7 +43,7 @@ class Finder {
  private:
   void join(VertexId first, VertexId second) {
     const VertexId a = tiny_.vertices[first], b = tiny_.vertices[second];
-    if (a != b) std::replace(tiny_.vertices.begin(), tiny_.vertices.end(), std::max(a, b), std::min(a, b));
+    if (a != b) std::ranges::replace(tiny_.vertices, std::max(a, b), std::min(a, b));
   }
 
   /// Makes a sliver an edge, all of it or nothing.
@@ -51,10 +51,8 @@ class Finder {
     if (!used_[sliver.face] || is_set(slivers_.kept, sliver.face)) return;
     const auto is_open = [&](const auto& joint) { return tiny_.end(joint[0]) != tiny_.end(joint[1]); };
     const auto is_left = [&](EdgeId edge) { return !tiny_.collapsed_edges[edge]; };
-    if (std::any_of(sliver.joints.begin(), sliver.joints.end(), is_open) ||
-        std::any_of(sliver.rims.begin(), sliver.rims.end(), is_left))
-      return;
-    if (std::any_of(sliver.pairs.begin(), sliver.pairs.end(), [&](const Sliver::Pair& pair) {
+    if (std::ranges::any_of(sliver.joints, is_open) || std::ranges::any_of(sliver.rims, is_left)) return;
+    if (std::ranges::any_of(sliver.pairs, [&](const Sliver::Pair& pair) {
           return !is_left(pair.edge) || !is_left(pair.other) || keep_apart(pair.edge, pair.other);
         }))
       return;
@@ -222,8 +220,23 @@ std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward)
   std::vector<Vector3> points;
   for (int i = 0; i <= pieces; ++i)
     points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / pieces)));
-  if (!forward) std::reverse(points.begin(), points.end());
+  if (!forward) std::ranges::reverse(points);
   return points;
+}
+
+std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire, int pieces) {
+  std::vector<Vector3> points;
+  for (const Coedge& coedge : wire.coedges) {
+    const std::vector<Vector3> along = points_along(shape.edges[coedge.edge], pieces, coedge.forward);
+    points.insert(points.end(), along.begin(), along.end() - 1);
+  }
+  return points;
+}
+
+double length_of(const CadShape& shape, const CadWire& wire) {
+  double length = 0;
+  for (const Coedge& coedge : wire.coedges) length += shape.edges[coedge.edge].length;
+  return length;
 }
 
 double distance_to_line(const Vector3& point, const std::vector<Vector3>& line) {

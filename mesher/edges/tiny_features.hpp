@@ -57,6 +57,12 @@ IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used
 /// whether they begin at the edge's start
 std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward = true);
 
+/// Points on the edges of a wire, all around it. \param pieces steps on each edge
+std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire, int pieces);
+
+/// The length of a wire.
+double length_of(const CadShape& shape, const CadWire& wire);
+
 /// The distance of a point from a polyline; infinite from one without segments.
 double distance_to_line(const Vector3& point, const std::vector<Vector3>& line);
 

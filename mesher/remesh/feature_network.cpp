@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <queue>
 #include <set>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include "geometry/base/whole_number.hpp"
+#include "mesher/edges/count_table.hpp"
 #include "mesher/mesh/side_twins.hpp"
 
 namespace quadrille {
@@ -67,6 +69,15 @@ class FeatureFinder {
         if (const Side side = make_side(t, i); twin(side) < side) visit(side);
   }
 
+  /// Visits the sides that the shape alone makes features, each with the patches beside it.
+  template <class Visit>
+  void each_fold(Visit&& visit) const {
+    each_side([&](Side side) {
+      if (marked(side) && !given(side))
+        visit(side, network_.patches[triangle_of(side)], network_.patches[triangle_of(twin(side))]);
+    });
+  }
+
   bool marked(Side side) const { return marked_[triangle_of(side)][index_of(side)] != 0; }
 
   void mark(Side side, char value) {
@@ -91,9 +102,7 @@ class FeatureFinder {
   }
 
   void number_patches() {
-    const auto twin_of = [&](Side side) {
-      return marked_[triangle_of(side)][index_of(side)] ? -1 : twins_[triangle_of(side)][index_of(side)];
-    };
+    const auto twin_of = [&](Side side) { return marked(side) ? -1 : twin(side); };
     network_.patch_count = number_pieces(twins_.size(), twin_of, network_.patches);
   }
 
@@ -105,9 +114,7 @@ class FeatureFinder {
       for (std::size_t t = 0; t < areas_.size(); ++t) area[network_.patches[t]] += areas_[t].norm();
       const double least = share * rules_.size * rules_.size;
       std::map<int, std::map<int, double>> shared;  // small patch -> neighbor -> length of folds between them
-      each_side([&](Side side) {
-        if (!marked(side) || given(side)) return;
-        const int a = network_.patches[triangle_of(side)], b = network_.patches[triangle_of(twin(side))];
+      each_fold([&](Side side, int a, int b) {
         if (a == b) return;
         if (area[a] < least) shared[a][b] += length(side);
         if (area[b] < least) shared[b][a] += length(side);
@@ -116,16 +123,12 @@ class FeatureFinder {
       std::map<int, int> goes_to;
       for (const auto& [patch, neighbors] : shared)
         goes_to[patch] =
-            std::max_element(neighbors.begin(), neighbors.end(), [](const auto& x, const auto& y) {
-              return x.second < y.second;
-            })->first;
+            std::ranges::max_element(neighbors, {}, [](const auto& at) { return at.second; })->first;
       const auto joined = [&](int a, int b) {
         const auto found = goes_to.find(a);
         return found != goes_to.end() && found->second == b;
       };
-      each_side([&](Side side) {
-        if (!marked(side) || given(side)) return;
-        const int a = network_.patches[triangle_of(side)], b = network_.patches[triangle_of(twin(side))];
+      each_fold([&](Side side, int a, int b) {
         if (joined(a, b) || joined(b, a)) mark(side, 0);
       });
       number_patches();
@@ -134,26 +137,16 @@ class FeatureFinder {
 
   /// Removes folds that have the same face on both sides and are connected over less than four elements.
   void drop_short_creases() {
-    std::map<int, int> parent;  // by point
-    const auto root = [&](int v) {
-      while (parent.at(v) != v) v = parent[v] = parent.at(parent.at(v));
-      return v;
-    };
-    const auto inner = [&](Side side) {
-      return marked(side) && !given(side) &&
-             network_.patches[triangle_of(side)] == network_.patches[triangle_of(twin(side))];
-    };
-    each_side([&](Side side) {
-      if (!inner(side)) return;
-      for (const int v : {from(side), to(side)}) parent.try_emplace(v, v);
-      parent[root(from(side))] = root(to(side));
+    boost::disjoint_sets_with_storage<> creases(surface_.points.size());  // of points
+    each_fold([&](Side side, int a, int b) {
+      if (a == b) creases.union_set(from(side), to(side));
     });
-    std::map<int, double> total;
-    each_side([&](Side side) {
-      if (inner(side)) total[root(from(side))] += length(side);
+    std::map<std::size_t, double> total;
+    each_fold([&](Side side, int a, int b) {
+      if (a == b) total[creases.find_set(from(side))] += length(side);
     });
-    each_side([&](Side side) {
-      if (inner(side) && total[root(from(side))] < 4 * rules_.size) mark(side, 0);
+    each_fold([&](Side side, int a, int b) {
+      if (a == b && total[creases.find_set(from(side))] < 4 * rules_.size) mark(side, 0);
     });
   }
 
@@ -279,7 +272,7 @@ double even_spacing(const FeatureCurve& curve, double target) {
 }  // namespace
 
 Vector3 FeatureCurve::at(double length) const {
-  const auto above = std::upper_bound(along.begin(), along.end(), length);
+  const auto above = std::ranges::upper_bound(along, length);
   if (above == along.begin()) return places.front();
   if (above == along.end()) return places.back();
   const auto k = above - along.begin();
@@ -337,10 +330,9 @@ std::vector<std::vector<double>> place_on_curves(const FeatureNetwork& network,
     }
     const int count = std::max(curve.closed() ? 3 : 1, round_to_int(sum.back()));
     std::vector<double>& nodes = result.emplace_back(1, 0.0);
-    for (int n = 1, k = 0; n < count; ++n) {
-      const double wanted = sum.back() * n / count;
-      while (sum[k + 1] < wanted) ++k;
-      nodes.push_back((k + (wanted - sum[k]) / (sum[k + 1] - sum[k])) / steps * curve.length());
+    for (int n = 1; n < count; ++n) {
+      const auto [step, share] = place_in(sum, sum.back() * n / count);
+      nodes.push_back((static_cast<double>(step) + share) / steps * curve.length());
     }
     nodes.push_back(curve.length());
   }

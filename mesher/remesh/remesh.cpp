@@ -135,7 +135,7 @@ std::vector<int> doubled_sides(const std::vector<std::array<int, 4>>& quads) {
   sides.reserve(4 * quads.size());
   for (const auto& quad : quads)
     for (int k = 0; k < 4; ++k) sides.emplace_back(quad[k], quad[(k + 1) & 3]);
-  std::sort(sides.begin(), sides.end());
+  std::ranges::sort(sides);
   std::vector<int> nodes;
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i] == sides[i - 1]) nodes.push_back(sides[i].first);
@@ -149,7 +149,8 @@ struct Model {
   Surface surface;
   double least_side = 0;  // shortest side that a quad may have
   FeatureNetwork network;
-  std::vector<int> face_numbers, edge_numbers, input_faces;  // by patch, curve, patch
+  std::vector<int> input_faces, face_numbers;  // by patch
+  std::vector<int> input_edges, edge_numbers;  // by curve
 };
 
 /// The sides of the surface that are segments of the input. \param node point of each of its nodes
@@ -192,11 +193,10 @@ Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vect
   Surface surface = oriented_surface(std::move(triangles.mesh), notes);
   const double least_side = same_place * check_size(surface, options);
   context.check();
-  FeatureRules rules;
-  rules.angle = options.feature_angle;
-  rules.size = options.size;
-  rules.fixed = surface.touches;
-  rules.sides = given_sides(input, surface, triangles.node);
+  const FeatureRules rules{.angle = options.feature_angle,
+                           .size = options.size,
+                           .sides = given_sides(input, surface, triangles.node),
+                           .fixed = surface.touches};
   FeatureNetwork network = find_features(surface.mesh, rules);
   context.check();
   std::vector<int> face_of_patch(network.patch_count), edge_of_curve;
@@ -209,9 +209,10 @@ Model find_faces(const ShellMesh& input, const RemeshOptions& options, std::vect
           std::move(surface),
           least_side,
           std::move(network),
+          std::move(face_of_patch),
           std::move(face_numbers),
-          std::move(edge_numbers),
-          std::move(face_of_patch)};
+          std::move(edge_of_curve),
+          std::move(edge_numbers)};
 }
 
 /// The longest sides of triangles with which each piece keeps its shape. Every piece gets at least four
@@ -268,10 +269,8 @@ RemeshedTriangles make_triangles(const Model& model, const std::vector<double>& 
                                  ExecutionContext& context) {
   const StageTimer timer(context, Stage::triangulate);
   std::vector<double> by_curve;
-  for (const FeatureCurve& curve : model.network.curves) {
-    double& least = by_curve.emplace_back(targets[curve.points.front()]);
-    for (const int v : curve.points) least = std::min(least, targets[v]);
-  }
+  for (const FeatureCurve& curve : model.network.curves)
+    by_curve.push_back(targets[std::ranges::min(curve.points, {}, [&](int v) { return targets[v]; })]);
   return remesh_triangles(model.surface.mesh, model.network, place_on_curves(model.network, by_curve),
                           model.locator, targets, context);
 }
@@ -320,8 +319,7 @@ void refine_near(const std::vector<Vector3>& places, const std::vector<Vector3>&
 
 void tell_off_surface(const FaceMeshes& quads, std::vector<std::string>& notes) {
   std::ptrdiff_t off = 0;
-  for (const auto& piece : quads)
-    off += std::count_if(piece->off.begin(), piece->off.end(), [](double d) { return d > 0; });
+  for (const auto& piece : quads) off += std::ranges::count_if(piece->off, [](double d) { return d > 0; });
   if (off == 0) return;
   notes.push_back(fmt::format(
       "{} nodes lie off the surface, where it bends too tightly for the size and quads would be inverted",
@@ -372,21 +370,20 @@ class PieceCutter {
       FaceTriangulation& piece = pieces[p.index()];
       const std::vector<int>& triangles = members[p.index()];
       const int patch = result_.patches[p] = triangles_.mesh.tags[triangles.front()];
+      // Returns whether the point had no number.
       const auto number = [&](int v) {
-        if (local[v] >= 0) return;
+        if (local[v] >= 0) return false;
         local[v] = static_cast<int>(piece.mesh.points.size());
         piece.mesh.points.push_back(cut.mesh.points[v]);
+        return true;
       };
       std::vector<int> boundary;
       for (const int t : triangles) {
         for (int i = 0; i < 3; ++i) {
           if (inner[t][i]) continue;
           const int a = cut.mesh.triangles[t][i], b = cut.mesh.triangles[t][next_index(i)];
-          for (const int v : {a, b}) {
-            if (local[v] >= 0) continue;
-            number(v);
-            boundary.push_back(v);
-          }
+          for (const int v : {a, b})
+            if (number(v)) boundary.push_back(v);
           const int side = side_index(side_of, cut.original[a], cut.original[b], patch);
           FaceBoundary::Segment& segment = piece.segments.emplace_back();
           segment.a = local[a];
@@ -517,9 +514,7 @@ FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, 
     surface.find(segment.middle_point, segment.middle_uv, normal);
   }
   triangulation.pole.assign(points.size(), 0);
-  FaceQuadsOptions options;
-  options.recombine = given.recombine;
-  options.improve = given.improve;
+  const FaceQuadsOptions options{.recombine = given.recombine, .improve = given.improve};
   FaceQuads quads = make_quads(std::move(triangulation), surface, options, context);
   const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
                                                   std::numeric_limits<double>::infinity(), context);
@@ -529,7 +524,7 @@ FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, 
   result.quads = std::move(quads.surface_mesh.mesh.quads);
   result.pole = std::move(quads.pole);
   result.nodes = std::move(quads.nodes);
-  if (std::count(moved.begin(), moved.end(), 1) == 0) return result;
+  if (std::ranges::count(moved, 1) == 0) return result;
   result.off.assign(moved.size(), 0);
   for (std::size_t v = 0; v < moved.size(); ++v)
     if (moved[v]) result.off[v] = (surface.nearest(result.uv[v], result.points[v]) - result.points[v]).norm();
@@ -579,24 +574,20 @@ void check_doubled(const FaceMeshes& quads, const ShellGeometry& geometry) {
 }
 
 void check_inverted(const ShellMesh& mesh, double least_side) {
-  int count = 0;
-  std::size_t first = 0;
-  for (std::size_t q = 0; q < mesh.quads.size(); ++q) {
-    if (!is_spoiled(mesh.points, mesh.quads[q], least_side)) continue;
-    if (count++ == 0) first = q;
-  }
-  if (count == 0) return;
-  const int face = mesh.quad_faces[first];
+  std::vector<std::size_t> spoiled;
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    if (is_spoiled(mesh.points, mesh.quads[q], least_side)) spoiled.push_back(q);
+  if (spoiled.empty()) return;
+  const int face = mesh.quad_faces[spoiled.front()];
   throw failure(fmt::format("Face{}", face),
                 fmt::format("{} quads stay inverted or without area at this size, the first on Face{} at "
                             "{}: try a smaller `size`, or another feature angle",
-                            count, face, place_text(mesh.points[mesh.quads[first][0]])));
+                            spoiled.size(), face, place_text(mesh.points[mesh.quads[spoiled.front()][0]])));
 }
 
 void tell_straight_sides(const ShellMesh& mesh, std::vector<std::string>& notes) {
   int first = static_cast<int>(mesh.points.size()), count = 0;
-  for (const auto& midsides : mesh.midsides)
-    first = std::min(first, *std::min_element(midsides.begin(), midsides.end()));
+  for (const auto& midsides : mesh.midsides) first = std::min(first, *std::ranges::min_element(midsides));
   double largest = 0;
   for (const ShellMesh::OffGeometry& off : mesh.off_geometry) {
     if (off.node < first) continue;
@@ -630,15 +621,13 @@ void keep_groups(const ShellMesh& input, const Model& model, std::vector<std::st
   std::vector<std::string> lost;
   for (const ShellMesh::Group& group : input.groups) {
     ShellMesh::Group kept{group.name, group.dimension, group.number, {}};
-    const auto take = [&](const auto& inputs, const std::vector<int>& numbers) {
+    const auto take = [&](const std::vector<int>& inputs, const std::vector<int>& numbers) {
       for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (std::binary_search(group.entities.begin(), group.entities.end(), inputs(i)))
-          kept.entities.push_back(numbers[i]);
+        if (std::ranges::binary_search(group.entities, inputs[i])) kept.entities.push_back(numbers[i]);
     };
-    if (group.dimension == 2) take([&](std::size_t i) { return model.input_faces[i]; }, model.face_numbers);
-    if (group.dimension == 1)
-      take([&](std::size_t i) { return model.network.curves[i].edge; }, model.edge_numbers);
-    std::sort(kept.entities.begin(), kept.entities.end());
+    if (group.dimension == 2) take(model.input_faces, model.face_numbers);
+    if (group.dimension == 1) take(model.input_edges, model.edge_numbers);
+    std::ranges::sort(kept.entities);
     if (kept.entities.empty())
       lost.push_back(group.name.empty() ? fmt::format("{}", group.number) : group.name);
     else

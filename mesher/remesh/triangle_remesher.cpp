@@ -45,6 +45,12 @@ struct Span {
 constexpr double longest_share = 1.57, shortest_share = 0.94;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Whether two vectors are less than 60 degrees apart.
+bool look_alike(const Vector3& a, const Vector3& b) {
+  constexpr double least_cosine = 0.5;
+  return a.dot(b) > least_cosine * a.norm() * b.norm();
+}
+
 /// The triangles while they change, with the curves, sizes and patches that they keep.
 struct Triangulation {
   Mesh mesh;
@@ -218,8 +224,8 @@ Triangulation triangulation_of(const TriangleMesh& surface, const FeatureNetwork
       const Vertex a(curve.points[k]), b(curve.points[k + 1]);
       t.span[t.mesh.edge(t.mesh.halfedge(a, b))] = {static_cast<int>(c), curve.along[k], curve.along[k + 1],
                                                     a};
-      t.hold[a] = t.hold[a] == held ? held : passing;
-      t.hold[b] = t.hold[b] == held ? held : passing;
+      for (const Vertex v : {a, b})
+        if (t.hold[v] == free_point) t.hold[v] = passing;
     }
     for (const int end : {curve.points.front(), curve.points.back()}) {
       t.hold[Vertex(end)] = held;
@@ -240,30 +246,28 @@ void insert_nodes(Triangulation& t, const FeatureCurve& curve, const std::vector
   for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
     const double s = nodes[n], size = 0.5 * (nodes[n + 1] - nodes[n - 1]);
     while (curve.along[k + 1] <= s - near) start = Vertex(curve.points[++k]);
+    Vertex node;
     if (std::abs(curve.along[k + 1] - s) < near) {
-      start = Vertex(curve.points[++k]);
-      t.hold[start] = held;
-      tell(start, size);
+      node = start = Vertex(curve.points[++k]);
     } else if (std::abs(curve.along[k] - s) < near && k > 0) {
-      t.hold[Vertex(curve.points[k])] = held;
-      tell(Vertex(curve.points[k]), size);
+      node = Vertex(curve.points[k]);
     } else {
       const Halfedge h = t.mesh.halfedge(start, Vertex(curve.points[k + 1]));
-      start = t.split(h, curve.at(s), s);
-      tell(start, size);
+      node = start = t.split(h, curve.at(s), s);
     }
+    t.hold[node] = held;
+    tell(node, size);
   }
 }
 
 /// Reduces sizes at folds, which show that triangles are too large for the surface.
 void refine_folds(Triangulation& t, SparseCheck& check) {
-  constexpr double sharp = 0.5, smaller = 0.6, finest = 1.0 / 8;  // sharp: cosine of 60 degrees
+  constexpr double smaller = 0.6, finest = 1.0 / 8;
   for (const Edge e : t.mesh.edges()) {
     check();
     if (t.on_curve(e) || t.mesh.is_border(e)) continue;
     const Halfedge h = t.mesh.halfedge(e);
-    const Vector3 a = t.area(t.mesh.face(h)), b = t.area(t.mesh.face(t.mesh.opposite(h)));
-    if (a.dot(b) > sharp * a.norm() * b.norm()) continue;
+    if (look_alike(t.area(t.mesh.face(h)), t.area(t.mesh.face(t.mesh.opposite(h))))) continue;
     const double size = std::max(finest * t.target[t.mesh.source(h)], smaller * t.size_at(e));
     for (const Vertex v :
          {t.mesh.source(h), t.mesh.target(h), t.opposite_corner(h), t.opposite_corner(t.mesh.opposite(h))})
@@ -308,15 +312,14 @@ bool may_split_near(const Triangulation& t, Halfedge h, const Vector3& place) {
 
 /// Whether the parts of the split faces beside an edge have about the same normals as the faces.
 bool may_split_at(const Triangulation& t, Halfedge h, const Vector3& place) {
-  constexpr double least_cosine = 0.5;
   const Vector3 a = t.at(t.mesh.source(h)), b = t.at(t.mesh.target(h));
   for (const Halfedge side : {h, t.mesh.opposite(h)}) {
     if (t.mesh.is_border(side)) continue;
     const Vector3 third = t.at(t.opposite_corner(side)), normal = t.area(t.mesh.face(side));
     const Vector3 &from = side == h ? a : b, &to = side == h ? b : a;
-    for (const Vector3& part :
-         {Vector3((place - from).cross(third - from)), Vector3((to - place).cross(third - place))})
-      if (!(part.dot(normal) > least_cosine * part.norm() * normal.norm())) return false;
+    if (!look_alike((place - from).cross(third - from), normal) ||
+        !look_alike((to - place).cross(third - place), normal))
+      return false;
   }
   return true;
 }
@@ -329,10 +332,7 @@ bool wants_flip(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
   constexpr double certain = 1e-6;
   if (ca.dot(cb) * at_d + da.dot(db) * at_c >= -certain * at_c * at_d) return false;
   const Vector3 first = (b - a).cross(c - a), second = (d - a).cross(b - a), normal = first + second;
-  const Vector3 now = (d - a).cross(c - a), then = (c - b).cross(d - b);
-  constexpr double least_cosine = 0.5;
-  return now.dot(normal) > least_cosine * now.norm() * normal.norm() &&
-         then.dot(normal) > least_cosine * then.norm() * normal.norm();
+  return look_alike((d - a).cross(c - a), normal) && look_alike((c - b).cross(d - b), normal);
 }
 
 /// Flips sides to the Delaunay criterion until few are left.
@@ -370,7 +370,7 @@ void split_long(Triangulation& t, const FeatureNetwork& network, const SurfaceLo
         edges.emplace_back(-ratio, e);
     }
     if (edges.empty()) return;
-    std::sort(edges.begin(), edges.end());
+    std::ranges::sort(edges);
     bool any = false;
     for (const auto& [ratio, e] : edges) {
       check();
@@ -407,7 +407,7 @@ void collapse_short(Triangulation& t, SparseCheck& check) {
     const double ratio = t.length(e) / t.size_at(e);
     if (passes(e) || ratio < shortest_share) edges.emplace_back(ratio, e);
   }
-  std::sort(edges.begin(), edges.end());
+  std::ranges::sort(edges);
   for (const auto& [ratio, e] : edges) {
     check();
     if (t.mesh.is_removed(e)) continue;
@@ -467,9 +467,7 @@ RemeshedTriangles result_of(const Triangulation& t) {
     const Vertex last = t.mesh.vertex(e, t.mesh.vertex(e, 0) == span.first ? 1 : 0);
     made.sides.push_back({{point(span.first), point(last)}, span.curve, span.low, span.high});
   }
-  std::sort(made.sides.begin(), made.sides.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.curve, a.from) < std::pair(b.curve, b.from);
-  });
+  std::ranges::sort(made.sides, {}, [](const auto& side) { return std::pair(side.curve, side.from); });
   return made;
 }
 

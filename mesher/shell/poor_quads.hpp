@@ -14,7 +14,7 @@ namespace quadrille {
 /// quad lies in, or the edges that come close there. One entry for each edge, and for each face and reason,
 /// those with the most quads first. The quads that only warp are left out: the curvature of the part does
 /// that. Linear in the mesh. \param cut_corners by node: the vertex of the corner that a face ends before
-/// (spikes.hpp)
+/// (slivers.hpp)
 std::vector<ShellMesh::PoorQuads> poor_quads(const CadShape& shape, const ShellMesh& mesh,
                                              const std::map<int, int>& cut_corners = {});
 

@@ -7,9 +7,8 @@
 
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/surfaces/stray_edges.hpp"
-#include "mesher/edges/coplanar_faces.hpp"
-#include "mesher/edges/grid_rows.hpp"
-#include "mesher/edges/hole_filling.hpp"
+#include "mesher/edges/chords.hpp"
+#include "mesher/edges/simplified_model.hpp"
 #include "mesher/settings.hpp"
 #include "mesher/shell/remedies.hpp"
 

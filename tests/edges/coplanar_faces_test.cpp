@@ -1,6 +1,6 @@
 /// Coplanar faces become one where the edges between them would force small or poor quads, and nothing else.
 
-#include "mesher/edges/coplanar_faces.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Rows of flat quads beside edges: divisions that grids carry.
 
-#include "mesher/edges/grid_rows.hpp"
+#include "mesher/edges/chords.hpp"
 
 #include <gtest/gtest.h>
 #include <BRepAlgoAPI_Cut.hxx>

@@ -12,7 +12,8 @@ namespace {
 constexpr GridSize grid{40, 30};
 
 HolePlace hole_at(double x, double y, double width, double height) {
-  return {{x - width / 2, y - height / 2}, {x + width / 2, y + height / 2}};
+  const Vector2 middle(x, y), half(width / 2, height / 2);
+  return {Eigen::AlignedBox2d(middle - half, middle + half)};
 }
 
 TEST(HoleBlocks, AreAboutACellLargerThanTheHole) {

@@ -1,6 +1,6 @@
 /// Holes, pockets and bosses that are narrow enough are left out, and nothing else.
 
-#include "mesher/edges/hole_filling.hpp"
+#include "mesher/edges/simplified_model.hpp"
 
 #include <gtest/gtest.h>
 

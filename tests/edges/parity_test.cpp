@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "mesher/edges/parity.hpp"
+#include "mesher/edges/count_balance.hpp"
 #include "tests/support/ids.hpp"
 
 namespace quadrille {

@@ -1,6 +1,6 @@
 /// Strips that want no more than one row.
 
-#include "mesher/edges/single_segments.hpp"
+#include "mesher/edges/edge_counts.hpp"
 
 #include <gtest/gtest.h>
 

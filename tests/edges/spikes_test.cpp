@@ -1,6 +1,6 @@
 /// Faces end before corners that are too narrow.
 
-#include "mesher/edges/spikes.hpp"
+#include "mesher/edges/slivers.hpp"
 
 #include <gtest/gtest.h>
 
