@@ -145,7 +145,8 @@ class FaceMesher {
   /// Moves nodes of inverted quads off the surface, and notes how far.
   void leave_surface(FaceQuads& quads) {
     SurfaceMesh& mesh = quads.surface_mesh;
-    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, recipe_.reach, context_);
+    const std::vector<char> moved =
+        unfold_in_space(mesh.mesh.quads, mesh.mesh.points, mesh.fixed, recipe_.reach, context_);
     off_.assign(moved.size(), 0);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       const Vector3& at = mesh.mesh.points[i];
