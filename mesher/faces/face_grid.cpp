@@ -10,6 +10,7 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -116,9 +117,7 @@ void drop_unused(FaceGrid& grid) {
   }
   grid.uv.resize(kept);
   grid.points.resize(kept);
-  for (auto& quad : grid.quads) {
-    for (int& point : quad) point = number[point];
-  }
+  for (auto& quad : grid.quads) quad = with_numbers(quad, number);
 }
 
 /// Makes the quads counter-clockwise: a wire may run the wrong way around.

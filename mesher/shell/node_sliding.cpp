@@ -175,7 +175,8 @@ class Round {
   bool needs_move() {
     if (uses_.empty() || worst_objective_ <= aim_.poor) return false;
     shortest_ = std::numeric_limits<double>::max();
-    double aspect = 1;  // largest ratio of the two sides of a quad at the node
+    double aspect = 1;        // largest ratio of the two sides of a quad at the node
+    double off_parallel = 0;  // largest difference of opposite sides
     double sum = 0, short_sum = 0;
     for (const QuadUse& use : uses_) {
       const Vector3& here = use.at(0);
@@ -185,16 +186,13 @@ class Round {
       aspect = std::max(aspect, longer / shorter);
       sum += next + previous;
       short_sum += shorter;
-    }
-    mean_ = sum / (2.0 * static_cast<double>(uses_.size()));
-    double off_parallel = 0;  // largest difference of opposite sides, over the mean length
-    for (const QuadUse& use : uses_) {
       const Vector3 off = use.face->corner(use.quad, 0) - use.face->corner(use.quad, 1) +
                           use.face->corner(use.quad, 2) - use.face->corner(use.quad, 3);
-      off_parallel = std::max(off_parallel, off.norm() / mean_);
+      off_parallel = std::max(off_parallel, off.norm());
     }
+    mean_ = sum / (2.0 * static_cast<double>(uses_.size()));
     const bool uneven = aspect > inside_aspect && (sum - short_sum) / short_sum < inside_aspect;
-    return !(least_sine_ > inside_limits && !uneven && off_parallel < parallel_share);
+    return !(least_sine_ > inside_limits && !uneven && off_parallel / mean_ < parallel_share);
   }
 
   /// \return whether the patch has all quads
@@ -401,9 +399,7 @@ bool relax(FaceState& face, int node, const Aim& aim, Round& round) {
   FaceMesh& mesh = *face.mesh;
   const Vector3& here = mesh.points[node];
   Vector3 normal = Vector3::Zero();
-  for (const QuadUse& use : round.uses())
-    normal += (face.corner(use.quad, 2) - face.corner(use.quad, 0))
-                  .cross(face.corner(use.quad, 3) - face.corner(use.quad, 1));
+  for (const QuadUse& use : round.uses()) normal += quad_area_vector(mesh.points, mesh.quads[use.quad]);
   const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
   CriteriaPatch patch(u, v, aim.squareness);
   if (!round.draw(patch)) return false;

@@ -1,7 +1,6 @@
 #pragma once
 /// The last optimization: moves the nodes of all faces together, including those on CAD edges. Internal.
 
-#include <optional>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
