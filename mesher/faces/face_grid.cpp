@@ -356,15 +356,12 @@ std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& 
   }
   if (!is_made) return std::nullopt;
   FaceGrid grid = std::move(maker).grid();
-  if (kind == GridKind::holed) {
-    // The shape can be judged only after nodes have been moved.
-    if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
-    drop_unused(grid);
-    turn_to_left(grid, check);
-    return grid;
-  }
+  const bool has_holes = kind == GridKind::holed;
+  if (has_holes) drop_unused(grid);
   turn_to_left(grid, check);
-  if (!is_good(grid, check) || !follows_sizes(grid, loops, size_at, check)) return std::nullopt;
+  // With holes, the shape can be judged only after nodes have been moved.
+  if (!has_holes && !is_good(grid, check)) return std::nullopt;
+  if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
   return grid;
 }
 

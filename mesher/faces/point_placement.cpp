@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -87,9 +88,7 @@ class PointGrid {
     head = i;
   }
   void rebuild(std::size_t buckets) {
-    std::size_t n = 64;
-    while (n < buckets) n *= 2;
-    heads_.assign(n, -1);
+    heads_.assign(std::bit_ceil(std::max<std::size_t>(buckets, 64)), -1);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       check_();
       link(static_cast<int>(i));

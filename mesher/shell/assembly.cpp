@@ -62,16 +62,15 @@ class Assembler {
 
   void add_faces() {
     std::size_t points = mesh_.points.size();
-    numbering_.first_quad.assign(faces_.size() + 1, 0);
     std::size_t quads = 0;
     for (const FaceId face : faces_.ids()) {
       first_point_[face] = points;
-      numbering_.first_quad[face.index()] = quads;
+      numbering_.first_quad.push_back(quads);
       if (!faces_[face]) continue;
       points += faces_[face]->points.size() - faces_[face]->nodes.size();
       quads += faces_[face]->quads.size();
     }
-    numbering_.first_quad.back() = quads;
+    numbering_.first_quad.push_back(quads);
     mesh_.points.resize(points);
     mesh_.quads.resize(quads);
     mesh_.quad_faces.resize(quads);
