@@ -17,7 +17,6 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
@@ -382,7 +381,6 @@ void give_back(const CompositeFace& composite, const Division& division, FaceMes
   for (std::size_t m = 0; m < composite.members.size(); ++m) {
     FaceMesh part;
     part.surface = composite.own_surfaces[m];
-    part.q_min = 1;
     const auto add = [&](int p, const Vector2& near) {
       index[p] = static_cast<int>(part.points.size());
       part.points.push_back(mesh.points[p]);
@@ -399,12 +397,7 @@ void give_back(const CompositeFace& composite, const Division& division, FaceMes
           if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
       }
     }
-    for (const std::size_t q : division.quads_of[m]) {
-      auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
-      for (int* p : {&a, &b, &c, &d}) *p = index[*p];
-      part.q_min =
-          std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
-    }
+    for (const std::size_t q : division.quads_of[m]) part.quads.push_back(with_numbers(mesh.quads[q], index));
     for (const std::size_t q : division.quads_of[m])
       for (const int p : mesh.quads[q]) index[p] = -1;
     faces[composite.members[m]] = std::move(part);

@@ -17,7 +17,6 @@
 #include "mesher/faces/hole_rings.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/renumbering.hpp"
 #include "mesher/quads/face_quads.hpp"
 #include "mesher/quads/improve.hpp"
@@ -205,7 +204,6 @@ class FaceMesher {
     result.nodes = std::move(quads.nodes);
     if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
     result.off = off_;
-    result.q_min = 1;
     std::vector<int> inverted;
     SparseCheck check(context_);
     for (auto& quad : result.quads) {
@@ -213,7 +211,6 @@ class FaceMesher {
       if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
       if (quad_scaled_jacobian(result.points, quad) <= no_jacobian)
         inverted.push_back(static_cast<int>(&quad - result.quads.data()));
-      result.q_min = std::min(result.q_min, quad_q(result.points, quad));
     }
     if (!inverted.empty() && !recipe_.inverted_too)
       throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);

@@ -17,7 +17,6 @@
 #include "mesher/faces/face_chart.hpp"
 #include "mesher/faces/loop_filling.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/improve.hpp"
 
@@ -121,11 +120,8 @@ class LoopMesher {
     std::vector<char> fixed(mesh_.points.size(), 0);
     std::fill_n(fixed.begin(), mesh_.nodes.size(), 1);
     unfold_in_space(mesh_.quads, mesh_.points, fixed, std::numeric_limits<double>::infinity(), context_);
-    mesh_.q_min = 1;
-    for (auto& quad : mesh_.quads) {
-      if (face_.reversed) std::swap(quad[1], quad[3]);
-      mesh_.q_min = std::min(mesh_.q_min, quad_q(mesh_.points, quad));
-    }
+    if (face_.reversed)
+      for (auto& quad : mesh_.quads) std::swap(quad[1], quad[3]);
     for (std::size_t i = mesh_.nodes.size(); i < mesh_.points.size(); ++i)
       mesh_.off[i] = (surface_.project(mesh_.uv[i], mesh_.points[i]).point - mesh_.points[i]).norm();
   }

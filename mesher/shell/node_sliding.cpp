@@ -62,7 +62,7 @@ struct FaceState {
   std::vector<double> weight;                  // (quads) of the objective
   std::vector<char> active;                    // (points) 1 = to be visited
   std::vector<char> slid;                      // (boundary points) 1 = moved; uv must be updated
-  bool touched = false;                        // nodes or quads changed
+  bool mended = false;                         // quads were replaced
   int moves = 0;                               // nodes moved in the last sweep
 
   const MeshSurface& get_surface() {
@@ -120,18 +120,11 @@ struct FaceState {
     for (std::size_t i = 0; i < poor.size(); ++i) active[i] &= poor[i];
   }
 
-  /// Updates uv and q_min after nodes moved.
-  void finish(const ExecutionContext& context) {
+  /// Updates uv after nodes moved.
+  void finish() {
     turn_as_surface();
-    if (!touched) return;
     for (std::size_t i = 0; i < slid.size(); ++i)
       if (slid[i]) get_surface().nearest(mesh->uv[i], mesh->points[i]);
-    mesh->q_min = 1;
-    SparseCheck check(context);
-    for (const auto& quad : mesh->quads) {
-      check();
-      mesh->q_min = std::min(mesh->q_min, quad_q(mesh->points, quad));
-    }
   }
 };
 
@@ -244,7 +237,6 @@ class Round {
       const auto& [face, quad, corner] = uses_[i];
       face->objective[quad] = measured_[i].value;
       face->least_sine[quad] = measured_[i].least_sine;
-      face->touched = true;
       if (!wakes) continue;
       for (const int node : face->mesh->quads[quad]) face->active[node] = 1;
     }
@@ -487,7 +479,7 @@ void mend(FaceState& face, const ExecutionContext& context) {
   } catch (const Standard_Failure&) {
     return;  // the surface cannot be evaluated somewhere: the face stays as it is
   }
-  face.touched = true;
+  face.mended = true;
   mesh.points = std::move(work.mesh.points);
   mesh.quads = std::move(work.mesh.quads);
   mesh.uv = std::move(work.parameters);
@@ -542,12 +534,12 @@ class NodeSliding {
       face.measure_all(toward_limits, context_);
       quadrille::mend(face, context_);
     });
-    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.touched; });
+    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
   }
 
-  /// Updates uv and q_min after nodes moved.
+  /// Updates uv after nodes moved.
   void finish() {
-    for_each_face([&](FaceState& face) { face.finish(context_); });
+    for_each_face([](FaceState& face) { face.finish(); });
   }
 
  private:
