@@ -222,7 +222,12 @@ TEST(Mesh, IsAsGoodAsItWas) {
   for (const SampleModel& sample : sample_models()) {
     SCOPED_TRACE(sample.name);
     const CadModel model = CadModel::read(sample.path());
-    const QualitySummary summary = quality(mesh_of(model, options_for(model, 60)));
+    const ShellMesh mesh = mesh_of(model, options_for(model, 60));
+    const QualitySummary summary = quality(mesh);
+    double least = 1;
+    for (const ShellMesh::Face& face : mesh.faces)
+      if (face.quads > 0) least = std::min(least, face.q_min);
+    EXPECT_EQ(least, summary.q_min);
     q += summary.q_mean * summary.quads;
     irregular += summary.irregular_percent * summary.quads;
     quads += summary.quads;

@@ -279,7 +279,17 @@ class BoundaryWalker {
     // CAD translators also close wires with edges marked degenerate that are not poles.
     if (!is_one_point(from, to)) return {};
     if (!coedge.forward) std::swap(from, to);
-    return add_pole(from, to, node, is_tip(wire, at) ? 1 : pole_segments);
+    const int count = is_tip(wire, at) ? 1 : pole_segments;
+    Run run;
+    run.first_segment = static_cast<int>(boundary_.segments.size());
+    run.first = add_point(from, node);
+    for (int k = 1; k <= count; ++k) {
+      const double t = static_cast<double>(k) / count;
+      run.last = add_point((1 - t) * from + t * to, node);
+      add_point_segment(run.last - 1, run.last);
+    }
+    run.end_segment = static_cast<int>(boundary_.segments.size());
+    return run;
   }
 
   /// Whether the face is so narrow between the coedges beside a pole that no elements fit side by side.
@@ -302,19 +312,6 @@ class BoundaryWalker {
       width += (surface_.point((1 - t) * a + t * b) - surface_.point((1 - s) * a + s * b)).norm();
     }
     return width < narrow * std::min((p - pole).norm(), (q - pole).norm());
-  }
-
-  Run add_pole(const Vector2& from, const Vector2& to, int node, int count) {
-    Run run;
-    run.first_segment = static_cast<int>(boundary_.segments.size());
-    run.first = add_point(from, node);
-    for (int k = 1; k <= count; ++k) {
-      const double t = static_cast<double>(k) / count;
-      run.last = add_point((1 - t) * from + t * to, node);
-      add_point_segment(run.last - 1, run.last);
-    }
-    run.end_segment = static_cast<int>(boundary_.segments.size());
-    return run;
   }
 
   /// Merges the end of one coedge with the start of the next. A jump between them at the same node is a pole

@@ -10,6 +10,7 @@
 #include "geometry/base/whole_number.hpp"
 #include "mesher/edges/count_table.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -116,9 +117,7 @@ void drop_unused(FaceGrid& grid) {
   }
   grid.uv.resize(kept);
   grid.points.resize(kept);
-  for (auto& quad : grid.quads) {
-    for (int& point : quad) point = number[point];
-  }
+  for (auto& quad : grid.quads) quad = with_numbers(quad, number);
 }
 
 /// Makes the quads counter-clockwise: a wire may run the wrong way around.
@@ -357,15 +356,12 @@ std::optional<FaceGrid> make_grid(const FaceBoundary& boundary, const FacePlan& 
   }
   if (!is_made) return std::nullopt;
   FaceGrid grid = std::move(maker).grid();
-  if (kind == GridKind::holed) {
-    // The shape can be judged only after nodes have been moved.
-    if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
-    drop_unused(grid);
-    turn_to_left(grid, check);
-    return grid;
-  }
+  const bool has_holes = kind == GridKind::holed;
+  if (has_holes) drop_unused(grid);
   turn_to_left(grid, check);
-  if (!is_good(grid, check) || !follows_sizes(grid, loops, size_at, check)) return std::nullopt;
+  // With holes, the shape can be judged only after nodes have been moved.
+  if (!has_holes && !is_good(grid, check)) return std::nullopt;
+  if (!follows_sizes(grid, loops, size_at, check)) return std::nullopt;
   return grid;
 }
 

@@ -25,7 +25,7 @@
 
 #include "geometry/base/place_text.hpp"
 #include "mesher/faces/face_problem.hpp"
-#include "mesher/faces/triangle_flips.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -203,18 +203,22 @@ std::vector<std::array<int, 3>> triangles_of(FaceId face, const FaceBoundary& bo
 /// Recombination then keeps these segments as sides of quads.
 class CrackOpener {
  public:
-  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles,
+  /// \param inner_count number of points inside the boundary
+  CrackOpener(FaceBoundary& boundary, std::vector<std::array<int, 3>>& triangles, std::size_t inner_count,
               const ExecutionContext& context)
-      : boundary_(boundary), triangles_(triangles), inner_start_(boundary.size()), check_(context) {}
+      : boundary_(boundary),
+        triangles_(triangles),
+        inner_start_(boundary.size()),
+        point_count_(boundary.size() + inner_count),
+        check_(context) {}
 
   void run() {
     find_cracks();
     if (cracks_.empty()) return;
     original_ = triangles_;
-    std::set<int> ends;
-    for (const auto& [key, segment] : cracks_) ends.insert({key.first, key.second});
-    collect_corners(ends);
-    for (const int point : ends) split(point);
+    for (const auto& [key, segment] : cracks_) ends_.insert({key.first, key.second});
+    corners_ = corners_by_node(point_count_, triangles_, check_);
+    for (const int point : ends_) split(point);
     renumber_inner_points();
     replace_segments();
   }
@@ -233,27 +237,16 @@ class CrackOpener {
     }
   }
 
-  /// Collects the corners (3 t + k) at each end of a crack.
-  void collect_corners(const std::set<int>& ends) {
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      check_();
-      for (int k = 0; k < 3; ++k) {
-        if (ends.contains(triangles_[t][k]))
-          corners_[triangles_[t][k]].push_back(static_cast<int>(3 * t) + k);
-      }
-    }
-  }
-
   int original(int triangle, int k) const { return original_[triangle][k % 3]; }
 
   /// Gives every fan of triangles at a point but the first its own copy of the point.
   void split(int point) {
-    std::vector<int> left = corners_[point];
+    std::vector<Side> left(corners_[point].begin(), corners_[point].end());
     for (bool first = true; !left.empty(); first = false) {
-      std::vector<int> fan{left.back()};
+      std::vector<Side> fan{left.back()};
       left.pop_back();
       for (std::size_t i = 0; i < fan.size(); ++i) {
-        std::erase_if(left, [&](int corner) {
+        std::erase_if(left, [&](Side corner) {
           if (!joined(fan[i], corner)) return false;
           fan.push_back(corner);
           return true;
@@ -262,13 +255,14 @@ class CrackOpener {
       if (first) continue;
       const int copy = inner_start_ + static_cast<int>(copies_.size());
       copies_.push_back(point);
-      for (const int corner : fan) triangles_[corner / 3][corner % 3] = -1 - copy;  // renumbered below
+      for (const Side corner : fan)
+        triangles_[element_of(corner)][index_of(corner)] = -1 - copy;  // renumbered below
     }
   }
 
   /// Whether two triangles at a point share a side there, and the side is not a crack.
-  bool joined(int corner, int other) const {
-    const int t = corner / 3, k = corner % 3, u = other / 3, j = other % 3;
+  bool joined(Side corner, Side other) const {
+    const int t = element_of(corner), k = index_of(corner), u = element_of(other), j = index_of(other);
     const auto open = [&](int end) { return cracks_.contains(key(original(t, k), end)); };
     if (original(t, k + 1) == original(u, j + 2) && !open(original(t, k + 1))) return true;
     return original(t, k + 2) == original(u, j + 1) && !open(original(t, k + 2));
@@ -290,8 +284,7 @@ class CrackOpener {
   void replace_segments() {
     std::map<Key, FaceBoundary::Segment> replaced;
     std::erase_if(boundary_.segments, [&](const auto& segment) {
-      if (segment.degenerate || (!corners_.contains(segment.a) && !corners_.contains(segment.b)))
-        return false;
+      if (segment.degenerate || (!ends_.contains(segment.a) && !ends_.contains(segment.b))) return false;
       replaced.emplace(key(segment.a, segment.b), segment);
       return true;
     });
@@ -311,9 +304,11 @@ class CrackOpener {
   FaceBoundary& boundary_;
   std::vector<std::array<int, 3>>& triangles_;
   int inner_start_;
+  std::size_t point_count_;
   SparseCheck check_;
   std::map<Key, FaceBoundary::Segment> cracks_;
-  std::map<int, std::vector<int>> corners_;
+  std::set<int> ends_;                        // points at ends of cracks
+  Rows<Side> corners_;                        // of triangles, before the splits
   std::vector<std::array<int, 3>> original_;  // triangles before the splits
   std::vector<int> copies_;
 };
@@ -339,8 +334,8 @@ void rename_corners(const std::vector<int>& target, std::vector<std::array<int, 
   std::vector<int> renumbered(triangles.size());
   int left = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    auto& corners = triangles[t];
-    for (int& corner : corners) corner = target[corner];
+    triangles[t] = with_numbers(triangles[t], target);
+    const auto& corners = triangles[t];
     int collapsed = 0;
     while (collapsed < 3 && corners[collapsed] != corners[(collapsed + 1) % 3]) ++collapsed;
     renumbered[t] = collapsed < 3 ? -1 : left++;
@@ -387,7 +382,7 @@ void choose_sides(FaceTriangulation& face) {
 FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context) {
   std::vector<std::array<int, 3>> triangles = triangles_of(face, boundary, placed, surface, context);
-  CrackOpener(boundary, triangles, context).run();
+  CrackOpener(boundary, triangles, placed.uv.size(), context).run();
 
   const int count = boundary.size() + static_cast<int>(placed.uv.size());
   std::vector<int> target = collapsed_poles(boundary, count);
@@ -422,9 +417,7 @@ FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoi
     result.angles.push_back(pole[i] ? 0 : boundary.angles[i]);
   }
   result.boundary_count = static_cast<int>(result.nodes.size());
-  for (auto& t : triangles) {
-    for (int& corner : t) corner = renumbered[corner];
-  }
+  for (auto& t : triangles) t = with_numbers(t, renumbered);
   result.mesh.triangles = std::move(triangles);
   for (const auto& segment : boundary.segments) {
     if (segment.degenerate) continue;

@@ -1,6 +1,7 @@
 #pragma once
 /// Triangulates the boundary points and placed points of a face. Internal.
 
+#include <array>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -30,5 +31,17 @@ struct FaceTriangulation {
 /// beforehand.
 FaceTriangulation triangulate_face(FaceId face, FaceBoundary boundary, PlacedPoints placed,
                                    const FaceSurface& surface, const ExecutionContext& context = {});
+
+/// Neighbors across the sides of triangles. Entry 3 t + k belongs to the side of triangle t from corner k to
+/// corner k + 1: it is the same side as seen from the other triangle, 3 t' + k', or -1 if there is none.
+/// \param triangles at most two at each side \param points number of points. Time: linear, but sorts the
+/// sides at each point.
+std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& triangles, int points,
+                                    const ExecutionContext& context);
+
+/// Flips sides until they satisfy the Delaunay criterion in space. Based on: Lawson (1977).
+/// \param across neighbors in the form of triangle_neighbors(). They must stem from the triangles before the
+/// points of each pole were merged, since merging may leave two sides between the same two points.
+void flip_in_space(FaceTriangulation& face, std::vector<int> across, const ExecutionContext& context);
 
 }  // namespace quadrille

@@ -244,10 +244,9 @@ class RingPlacer {
       const double wanted = usual_width * spacing(line, i);
       widths[i] = wanted;
       segments_.near(p, wanted * (2 * count + rows_beside), [&](const Segments::Segment& other) {
+        const Vector3 way = 0.5 * (other.a + other.b) - p;
         const bool own = other.loop == static_cast<int>(index);
-        if (own &&
-            (0.5 * (other.a + other.b) - p).dot(outward) < 0.5 * (0.5 * (other.a + other.b) - p).norm())
-          return;
+        if (own && way.dot(outward) < 0.5 * way.norm()) return;
         const bool ringed = other.loop >= 0 && is_hole(loops_[other.loop]);
         const double room = distance_to_segment(p, other.a, other.b);
         widths[i] = std::min(widths[i], room / ((ringed ? 2 : 1) * count + rows_beside));

@@ -14,6 +14,8 @@
 #include <set>
 #include <utility>
 
+#include "mesher/mesh/sides.hpp"
+
 namespace quadrille {
 
 namespace {
@@ -103,8 +105,7 @@ std::vector<std::array<int, 3>> fill_loops(const std::vector<Vector3>& points,
     for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
   }
   if (flips) flip_flat(places, sides, triangles);
-  for (auto& triangle : triangles)
-    triangle = {outline[triangle[0]], outline[triangle[1]], outline[triangle[2]]};
+  for (auto& triangle : triangles) triangle = with_numbers(triangle, outline);
   const bool is_degenerate = std::any_of(triangles.begin(), triangles.end(), [](const auto& t) {
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
   });

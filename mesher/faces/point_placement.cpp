@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -24,9 +25,10 @@ class PointGrid {
  public:
   PointGrid(std::size_t expected, const ExecutionContext& context) : check_(context) { rebuild(expected); }
 
-  void insert(const Vector3& p, double size) {
+  /// \param index what the caller knows the point by
+  void insert(const Vector3& place, double size, int index) {
     constexpr int levels_near = 2;
-    points_.push_back(p);
+    points_.push_back({place, index});
     const int level = level_of(size);
     for (int k = level - levels_near; k <= level + levels_near; ++k) {
       if (4 * (entries_.size() + 1) > 3 * heads_.size()) rebuild(2 * heads_.size());
@@ -35,7 +37,7 @@ class PointGrid {
     }
   }
 
-  /// Whether `visit(index)` is true for a point of about `size` that may lie within `radius` of p.
+  /// Whether `visit(place, index)` is true for a point of about `size` that may lie within `radius` of p.
   template <class Visit>
   bool any_near(const Vector3& p, double radius, double size, Visit&& visit) const {
     const int level = level_of(size);
@@ -46,7 +48,8 @@ class PointGrid {
       for (long y = low[1]; y <= high[1]; ++y) {
         for (long x = low[0]; x <= high[0]; ++x) {
           for (int i = heads_[bucket({x, y, z}, level)]; i >= 0; i = entries_[i].next) {
-            if (entries_[i].level == level && visit(entries_[i].point)) return true;
+            const Point& point = points_[entries_[i].point];
+            if (entries_[i].level == level && visit(point.place, point.index)) return true;
           }
         }
       }
@@ -54,9 +57,11 @@ class PointGrid {
     return false;
   }
 
-  const Vector3& point(int index) const { return points_[index]; }
-
  private:
+  struct Point {
+    Vector3 place;
+    int index;
+  };
   struct Entry {
     int point;
     int level;
@@ -78,14 +83,12 @@ class PointGrid {
   }
   void link(int i) {
     Entry& entry = entries_[i];
-    int& head = heads_[bucket(cell_of(points_[entry.point], inverse_width(entry.level)), entry.level)];
+    int& head = heads_[bucket(cell_of(points_[entry.point].place, inverse_width(entry.level)), entry.level)];
     entry.next = head;
     head = i;
   }
   void rebuild(std::size_t buckets) {
-    std::size_t n = 64;
-    while (n < buckets) n *= 2;
-    heads_.assign(n, -1);
+    heads_.assign(std::bit_ceil(std::max<std::size_t>(buckets, 64)), -1);
     for (std::size_t i = 0; i < entries_.size(); ++i) {
       check_();
       link(static_cast<int>(i));
@@ -93,7 +96,7 @@ class PointGrid {
   }
 
   SparseCheck check_;
-  std::vector<Vector3> points_;
+  std::vector<Point> points_;
   std::vector<Entry> entries_;  ///< one for each level that a point is entered on
   std::vector<int> heads_;
 };
@@ -111,10 +114,10 @@ struct FrontPoint {
   Vector2 uv;
   SurfacePoint at;
   Vector3 normal;
-  Vector3 direction;  // unit tangent: one of the four directions of the cross
+  Vector3 direction{0, 0, 0};  // unit tangent: one of the four directions of the cross
   double size = 0;
   double ratio = 1;  // size over that of the sizing field there
-  bool proposes = false;
+  bool proposes = true;
 };
 
 /// The mean of two tangents as crosses (4-fold symmetric), in the plane with this normal.
@@ -161,8 +164,6 @@ class Placer {
  private:
   void add_boundary() {
     const int n = boundary_.size();
-    std::vector<Vector3> tangent(n, Vector3::Zero());
-    std::vector<char> pole(n, 0);
     for (int i = 0; i < n; ++i) {
       FrontPoint point;
       point.uv = boundary_.uv[i];
@@ -174,21 +175,21 @@ class Placer {
     follow_segments();
     for (const auto& segment : boundary_.segments) {
       if (segment.degenerate) {
-        pole[segment.a] = pole[segment.b] = 1;
+        front_[segment.a].proposes = front_[segment.b].proposes = false;  // a pole
         continue;
       }
       const Vector3 along = (boundary_.points[segment.b] - boundary_.points[segment.a]).normalized();
       for (const int i : {segment.a, segment.b}) {
-        tangent[i] = tangent[i].isZero() ? along : cross_mean(tangent[i], along, front_[i].normal);
+        Vector3& tangent = front_[i].direction;
+        tangent = tangent.isZero() ? along : cross_mean(tangent, along, front_[i].normal);
       }
     }
     for (int i = 0; i < n; ++i) {
       FrontPoint& point = front_[i];
-      const Vector3 flat = tangent[i] - tangent[i].dot(point.normal) * point.normal;
-      point.proposes = !pole[i] && flat.norm() > 1e-6;
+      const Vector3 flat = point.direction - point.direction.dot(point.normal) * point.normal;
+      point.proposes &= flat.norm() > 1e-6;
       point.direction = point.proposes ? flat.normalized() : Vector3::Zero();
-      grid_.insert(boundary_.points[i], point.size);
-      grid_index_.push_back(i);
+      grid_.insert(boundary_.points[i], point.size, i);
     }
     add_blockers();
   }
@@ -224,8 +225,7 @@ class Placer {
                                       "may be damaged",
                                       number_text(length), number_text(size)));
       for (int k = 1; k < static_cast<int>(pieces); ++k) {
-        grid_.insert(a + (b - a) * k / pieces, size);
-        grid_index_.push_back(-1 - static_cast<int>(blockers_.size()));
+        grid_.insert(a + (b - a) * k / pieces, size, -1 - static_cast<int>(blockers_.size()));
         blockers_.push_back(boundary_.uv[segment.a] +
                             (boundary_.uv[segment.b] - boundary_.uv[segment.a]) * k / pieces);
       }
@@ -255,10 +255,8 @@ class Placer {
     const Vector3 flat = from.direction - from.direction.dot(to.normal) * to.normal;
     if (flat.squaredNorm() < 0.01) return;
     to.direction = flat.normalized();
-    to.proposes = true;
     if (refused(to)) return;
-    grid_.insert(to.at.point, to.size);
-    grid_index_.push_back(static_cast<int>(front_.size()));
+    grid_.insert(to.at.point, to.size, static_cast<int>(front_.size()));
     front_.push_back(to);
   }
 
@@ -292,9 +290,8 @@ class Placer {
     const Vector3 across = p.normal.cross(p.direction);
     const double limit = options_.refusal * p.size;
     const double reach = limit * M_SQRT2;
-    return grid_.any_near(p.at.point, reach, p.size, [&](int entry) {
-      const int i = grid_index_[entry];
-      const Vector3 d = grid_.point(entry) - p.at.point;
+    return grid_.any_near(p.at.point, reach, p.size, [&](const Vector3& place, int i) {
+      const Vector3 d = place - p.at.point;
       if (i < 0) {
         return d.squaredNorm() < 0.36 * p.size * p.size &&
                way_along(p.at, p.uv, blockers_[-1 - i]) < same_sheet * reach;
@@ -314,8 +311,7 @@ class Placer {
   const PlacementOptions& options_;
   ExecutionContext& context_;
   std::vector<FrontPoint> front_;
-  PointGrid grid_;
-  std::vector<int> grid_index_;    // point of the grid -> front point, or -1 - blocker
+  PointGrid grid_;                 // by the index of the front point, or -1 - blocker
   std::vector<Vector2> blockers_;  // (blockers) parameters
 };
 

@@ -1,6 +1,6 @@
 /// Flips in space until triangles face along the surface normals and are Delaunay, by cotangents.
 
-#include "mesher/faces/triangle_flips.hpp"
+#include "mesher/faces/face_triangulation.hpp"
 
 #include <algorithm>
 #include <set>
@@ -15,11 +15,9 @@ std::vector<int> triangle_neighbors(const std::vector<std::array<int, 3>>& trian
   std::vector<int> neighbor(3 * triangles.size(), -1);
   const auto number = [](Side side) { return 3 * element_of(side) + index_of(side); };
   const auto join = [&](int, int, std::span<const Side> sides) {
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      for (std::size_t j = i + 1; j < sides.size(); ++j) {
-        neighbor[number(sides[i])] = number(sides[j]);
-        neighbor[number(sides[j])] = number(sides[i]);
-      }
+    if (sides.size() != 2) return;
+    neighbor[number(sides[0])] = number(sides[1]);
+    neighbor[number(sides[1])] = number(sides[0]);
   };
   for_each_shared_side(points, SparseCheck(context), join, triangles);
   return neighbor;

@@ -106,7 +106,8 @@ int remesh_cavities(SurfaceMesh& mesh, const MeshSurface& surface, const Executi
 /// \param reach the largest distance that a node moves
 /// \return (n) 1 = was moved. Quads may stay inverted if too many of their nodes are fixed. Linear in the
 /// mesh for each of at most 20 rounds.
-std::vector<char> unfold_in_space(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
+std::vector<char> unfold_in_space(const std::vector<std::array<int, 4>>& quads, std::vector<Vector3>& points,
+                                  const std::vector<char>& fixed, double reach,
                                   const ExecutionContext& context);
 
 }  // namespace quadrille

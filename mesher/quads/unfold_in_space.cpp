@@ -15,14 +15,9 @@ namespace {
 
 class SpaceUnfolding {
  public:
-  SpaceUnfolding(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
-                 const ExecutionContext& context)
-      : quads_(mesh.quads),
-        points_(mesh.points),
-        starts_(mesh.points),
-        fixed_(fixed),
-        reach_(reach),
-        context_(context) {}
+  SpaceUnfolding(const std::vector<std::array<int, 4>>& quads, std::vector<Vector3>& points,
+                 const std::vector<char>& fixed, double reach, const ExecutionContext& context)
+      : quads_(quads), points_(points), starts_(points), fixed_(fixed), reach_(reach), context_(context) {}
 
   std::vector<char> run() {
     constexpr int rounds = 20;
@@ -112,9 +107,10 @@ class SpaceUnfolding {
 
 }  // namespace
 
-std::vector<char> unfold_in_space(QuadMesh& mesh, const std::vector<char>& fixed, double reach,
+std::vector<char> unfold_in_space(const std::vector<std::array<int, 4>>& quads, std::vector<Vector3>& points,
+                                  const std::vector<char>& fixed, double reach,
                                   const ExecutionContext& context) {
-  return SpaceUnfolding(mesh, fixed, reach, context).run();
+  return SpaceUnfolding(quads, points, fixed, reach, context).run();
 }
 
 }  // namespace quadrille

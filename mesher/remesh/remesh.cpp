@@ -516,12 +516,13 @@ FaceMesh quads_of(FaceTriangulation triangulation, const PatchSurface& surface, 
   triangulation.pole.assign(points.size(), 0);
   const FaceQuadsOptions options{.recombine = given.recombine, .improve = given.improve};
   FaceQuads quads = make_quads(std::move(triangulation), surface, options, context);
-  const std::vector<char> moved = unfold_in_space(quads.surface_mesh.mesh, quads.surface_mesh.fixed,
+  QuadMesh& mesh = quads.surface_mesh.mesh;
+  const std::vector<char> moved = unfold_in_space(mesh.quads, mesh.points, quads.surface_mesh.fixed,
                                                   std::numeric_limits<double>::infinity(), context);
   FaceMesh result;
-  result.points = std::move(quads.surface_mesh.mesh.points);
+  result.points = std::move(mesh.points);
   result.uv = std::move(quads.surface_mesh.parameters);
-  result.quads = std::move(quads.surface_mesh.mesh.quads);
+  result.quads = std::move(mesh.quads);
   result.pole = std::move(quads.pole);
   result.nodes = std::move(quads.nodes);
   if (std::ranges::count(moved, 1) == 0) return result;

@@ -3,14 +3,14 @@
 #include "mesher/shell/assembly.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "geometry/base/error.hpp"
 #include "geometry/base/place_text.hpp"
 #include "geometry/cad/parallel_ids.hpp"
-#include "mesher/shell/midsides.hpp"
-#include "mesher/shell/unfolding.hpp"
+#include "mesher/mesh/sides.hpp"
 
 namespace quadrille {
 
@@ -20,9 +20,7 @@ namespace {
 class Assembler {
  public:
   Assembler(const MeshedFaces& meshed, const ExecutionContext& context)
-      : geometry_(meshed.geometry), nodes_(meshed.nodes), faces_(meshed.faces), context_(context) {
-    numbering_.nodes.assign(nodes_.points.size(), -1);
-  }
+      : geometry_(meshed.geometry), nodes_(meshed.nodes), faces_(meshed.faces), context_(context) {}
 
   ShellMesh run() {
     number_boundary();
@@ -45,6 +43,7 @@ class Assembler {
           if (corner < static_cast<int>(face->nodes.size())) used[face->nodes[corner]] = 1;
       }
     }
+    numbering_.nodes.assign(used.size(), -1);
     for (std::size_t i = 0; i < used.size(); ++i) {
       if (!used[i]) continue;
       numbering_.nodes[i] = static_cast<int>(mesh_.points.size());
@@ -63,16 +62,15 @@ class Assembler {
 
   void add_faces() {
     std::size_t points = mesh_.points.size();
-    numbering_.first_quad.assign(faces_.size() + 1, 0);
     std::size_t quads = 0;
     for (const FaceId face : faces_.ids()) {
       first_point_[face] = points;
-      numbering_.first_quad[face.index()] = quads;
+      numbering_.first_quad.push_back(quads);
       if (!faces_[face]) continue;
       points += faces_[face]->points.size() - faces_[face]->nodes.size();
       quads += faces_[face]->quads.size();
     }
-    numbering_.first_quad.back() = quads;
+    numbering_.first_quad.push_back(quads);
     mesh_.points.resize(points);
     mesh_.quads.resize(quads);
     mesh_.quad_faces.resize(quads);
@@ -83,23 +81,27 @@ class Assembler {
 
   void add_face(FaceId id) {
     const FaceMesh& face = *faces_[id];
-    const std::size_t fixed = face.nodes.size();
     SparseCheck check(context_);
-    std::vector<int> global(face.points.size());
-    for (std::size_t i = 0; i < fixed; ++i) global[i] = numbering_.nodes[face.nodes[i]];
-    for (std::size_t i = fixed; i < face.points.size(); ++i) {
+    std::vector<int> global;
+    global.reserve(face.points.size());
+    for (const int node : face.nodes) global.push_back(numbering_.nodes[node]);
+    for (std::size_t i = face.nodes.size(); i < face.points.size(); ++i) {
       check();
-      const std::size_t node = first_point_[id] + i - fixed;
-      global[i] = static_cast<int>(node);
-      mesh_.points[node] = face.points[i];
+      global.push_back(number_inside(id, i));
+      mesh_.points[global.back()] = face.points[i];
     }
     std::size_t at = numbering_.first_quad[id.index()];
     const int number = geometry_.number(id);
     for (const auto& quad : face.quads) {
       check();
-      mesh_.quads[at] = {global[quad[0]], global[quad[1]], global[quad[2]], global[quad[3]]};
+      mesh_.quads[at] = with_numbers(quad, global);
       mesh_.quad_faces[at++] = number;
     }
+  }
+
+  /// The node of the shell at point i of a face, which lies inside the face.
+  int number_inside(FaceId face, std::size_t i) const {
+    return static_cast<int>(first_point_[face] + i - faces_[face]->nodes.size());
   }
 
   void add_segments() {
@@ -120,10 +122,8 @@ class Assembler {
     for (const FaceId id : faces_.ids()) {
       if (!faces_[id]) continue;
       const FaceMesh& face = *faces_[id];
-      for (std::size_t i = face.nodes.size(); i < face.off.size(); ++i) {
-        const std::size_t node = first_point_[id] + i - face.nodes.size();
-        if (face.off[i] > 0) mesh_.off_geometry.push_back({static_cast<int>(node), face.off[i]});
-      }
+      for (std::size_t i = face.nodes.size(); i < face.off.size(); ++i)
+        if (face.off[i] > 0) mesh_.off_geometry.push_back({number_inside(id, i), face.off[i]});
     }
   }
 
@@ -161,18 +161,15 @@ void note_off_geometry(ShellMesh& mesh) {
   if (mesh.off_geometry.empty()) return;
   std::vector<double> distance(mesh.points.size(), -1);
   for (const auto& off : mesh.off_geometry) distance[off.node] = off.distance;
-  std::vector<std::pair<int, int>> met;  // (face, node), once for each element
+  std::set<std::pair<int, int>> met;  // (face, node)
   for (std::size_t quad = 0; quad < mesh.quads.size(); ++quad) {
     const auto look_at = [&](const std::array<int, 4>& nodes) {
-      for (const int node : nodes) {
-        if (distance[node] >= 0) met.emplace_back(mesh.quad_faces[quad], node);
-      }
+      for (const int node : nodes)
+        if (distance[node] >= 0) met.emplace(mesh.quad_faces[quad], node);
     };
     look_at(mesh.quads[quad]);
     if (mesh.order == 2) look_at(mesh.midsides[quad]);
   }
-  std::sort(met.begin(), met.end());
-  met.erase(std::unique(met.begin(), met.end()), met.end());
   for (const auto& [face, node] : met) {
     ShellMesh::Face& status = mesh.faces[face - 1];
     ++status.off_geometry;

@@ -17,7 +17,6 @@
 #include "geometry/base/error.hpp"
 #include "geometry/base/side_key.hpp"
 #include "geometry/surfaces/face_surface.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
 #include "mesher/quads/mending.hpp"
@@ -69,24 +68,21 @@ class CandidateFinder {
     Sets sets(faces_.size());
     for (const EdgeId id : candidates)
       sets.union_set(shape_.edges[id].faces.front().index(), shape_.edges[id].faces.back().index());
-    std::map<std::size_t, std::vector<EdgeId>> edges_of;  // by set
+    std::vector<CompositeFace> of_sets(faces_.size());
     for (const EdgeId id : candidates)
-      edges_of[sets.find_set(shape_.edges[id].faces.front().index())].push_back(id);
-    std::vector<CompositeFace> result;
-    std::map<std::size_t, std::size_t> place;  // of the set in the result
+      of_sets[sets.find_set(shape_.edges[id].faces.front().index())].edges.push_back(id);
     for (const FaceId face : faces_.ids()) {
-      const std::size_t set = sets.find_set(face.index());
-      const auto edges = edges_of.find(set);
-      if (edges == edges_of.end()) continue;
-      const auto [found, is_new] = place.try_emplace(set, result.size());
-      if (is_new) result.emplace_back().edges = std::move(edges->second);
-      CompositeFace& composite = result[found->second];
+      CompositeFace& composite = of_sets[sets.find_set(face.index())];
+      if (composite.edges.empty()) continue;
       composite.members.push_back(face);
-      composite.own_surfaces.push_back(faces_[face]->surface);
-      composite.surfaces.push_back(faces_[face]->surface);
-      if (!composite.surfaces.back()) composite.surfaces.back() = surface_of(face);
+      const auto& own = composite.own_surfaces.emplace_back(faces_[face]->surface);
+      composite.surfaces.push_back(own ? own : surface_of(face));
     }
-    return {std::move(result), std::move(sides)};
+    std::erase_if(of_sets, [](const CompositeFace& composite) { return composite.edges.empty(); });
+    std::sort(of_sets.begin(), of_sets.end(), [](const CompositeFace& a, const CompositeFace& b) {
+      return a.members.front() < b.members.front();
+    });
+    return {std::move(of_sets), std::move(sides)};
   }
 
  private:
@@ -273,10 +269,11 @@ std::optional<FaceMesh> join(const BoundaryNodes& boundary_nodes, const std::vec
       sets.union_set(offset[one.face] + one.to, offset[other.face] + other.from);
     }
   }
+  const auto joined = [&](FaceId face, int p) { return static_cast<int>(sets.find_set(offset[face] + p)); };
   std::vector<std::array<int, 4>> quads;
   for (const FaceId face : composite.members)
     for (auto quad : faces[face]->quads) {
-      for (int& p : quad) p = static_cast<int>(sets.find_set(offset[face] + p));
+      for (int& p : quad) p = joined(face, p);
       quads.push_back(quad);
     }
   std::optional<std::vector<char>> fixed = boundary_points(quads, count);
@@ -284,16 +281,16 @@ std::optional<FaceMesh> join(const BoundaryNodes& boundary_nodes, const std::vec
   // CAD vertices keep their nodes.
   for (const FaceId face : composite.members) {
     const std::vector<int>& nodes = faces[face]->nodes;
-    for (std::size_t p = 0; p < nodes.size(); ++p)
-      if (edges_at_node[nodes[p]] == 2) (*fixed)[sets.find_set(offset[face] + static_cast<int>(p))] = 1;
+    for (int p = 0; p < std::ssize(nodes); ++p)
+      if (edges_at_node[nodes[p]] == 2) (*fixed)[joined(face, p)] = 1;
   }
   FaceMesh mesh;
   std::vector<int> index(count, -1);
   for (const bool boundary : {true, false}) {
-    for (std::size_t m = 0; m < composite.members.size(); ++m) {
-      const FaceMesh& part = *faces[composite.members[m]];
+    for (const FaceId face : composite.members) {
+      const FaceMesh& part = *faces[face];
       for (int p = 0; p < static_cast<int>(part.points.size()); ++p) {
-        const std::size_t at = sets.find_set(offset[composite.members[m]] + p);
+        const int at = joined(face, p);
         if ((*fixed)[at] != boundary || index[at] >= 0) continue;
         if (boundary && p >= static_cast<int>(part.nodes.size())) return std::nullopt;
         index[at] = static_cast<int>(mesh.points.size());
@@ -303,9 +300,7 @@ std::optional<FaceMesh> join(const BoundaryNodes& boundary_nodes, const std::vec
       }
     }
   }
-  for (auto& quad : quads)
-    for (int& p : quad) p = index[p];
-  mesh.quads = std::move(quads);
+  for (const auto& quad : quads) mesh.quads.push_back(with_numbers(quad, index));
   mesh.uv.assign(mesh.points.size(), Vector2(-1, 0));
   try {
     add_surface(faces, composite, mesh);
@@ -314,11 +309,6 @@ std::optional<FaceMesh> join(const BoundaryNodes& boundary_nodes, const std::vec
     return std::nullopt;  // quads with two sides in common make triangles that are not manifold
   }
   return mesh;
-}
-
-using PointKey = std::array<double, 3>;
-PointKey key_of(const Vector3& p) {
-  return {p.x(), p.y(), p.z()};
 }
 
 /// The mesh of a composite, and which of its quads belong to which face.
@@ -354,7 +344,8 @@ void divide(const CompositeFace& composite, Division& division) {
 /// where a node of an edge was; -1 for the others.
 void number_nodes(const CompositeFace& composite, BoundaryNodes& nodes, Division& division) {
   const FaceMesh& mesh = division.mesh;
-  std::map<PointKey, int> known;
+  std::map<std::array<double, 3>, int> known;
+  const auto key_of = [](const Vector3& p) { return std::array{p.x(), p.y(), p.z()}; };
   for (const EdgeId id : composite.edges)
     for (const int node : nodes.edges[id].nodes) known.emplace(key_of(nodes.points[node]), node);
   std::vector<int>& result = division.node;
@@ -390,7 +381,6 @@ void give_back(const CompositeFace& composite, const Division& division, FaceMes
   for (std::size_t m = 0; m < composite.members.size(); ++m) {
     FaceMesh part;
     part.surface = composite.own_surfaces[m];
-    part.q_min = 1;
     const auto add = [&](int p, const Vector2& near) {
       index[p] = static_cast<int>(part.points.size());
       part.points.push_back(mesh.points[p]);
@@ -407,12 +397,7 @@ void give_back(const CompositeFace& composite, const Division& division, FaceMes
           if (index[p] < 0 && (node[p] >= 0) == boundary) add(p, division.centers[q]);
       }
     }
-    for (const std::size_t q : division.quads_of[m]) {
-      auto& [a, b, c, d] = part.quads.emplace_back(mesh.quads[q]);
-      for (int* p : {&a, &b, &c, &d}) *p = index[*p];
-      part.q_min =
-          std::min(part.q_min, quad_q(part.points[a], part.points[b], part.points[c], part.points[d]));
-    }
+    for (const std::size_t q : division.quads_of[m]) part.quads.push_back(with_numbers(mesh.quads[q], index));
     for (const std::size_t q : division.quads_of[m])
       for (const int p : mesh.quads[q]) index[p] = -1;
     faces[composite.members[m]] = std::move(part);

@@ -19,7 +19,6 @@ struct FaceMesh {
   std::vector<char> pole;                      ///< (n) 1 = the point is a pole: its uv is one of many
   std::vector<std::array<int, 4>> quads;       ///< counter-clockwise about the face's normal in the model
   std::vector<int> nodes;                      ///< indices into BoundaryNodes::points
-  double q_min = 0;                            ///< lowest q of the quads
   bool grid = false;                           ///< the face was meshed as a grid, see face_grid.hpp
   std::shared_ptr<const MeshSurface> surface;  ///< surface that uv refer to; null = the face's own
   std::vector<Vector3> normals;  ///< (n) unit normals, if faces are taken as one (crossed_edges.hpp)

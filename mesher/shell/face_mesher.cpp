@@ -17,25 +17,24 @@
 #include "mesher/faces/hole_rings.hpp"
 #include "mesher/faces/point_placement.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
 #include "mesher/mesh/renumbering.hpp"
 #include "mesher/quads/face_quads.hpp"
 #include "mesher/quads/improve.hpp"
 #include "mesher/shell/boundary_sides.hpp"
 #include "mesher/shell/face_judge.hpp"
-#include "mesher/shell/inverted_quads.hpp"
 
 namespace quadrille {
 
 namespace {
 
+enum class Layout {
+  grid,   ///< by its outline, without triangles
+  rings,  ///< rings round the holes, triangles between them
+  plain   ///< triangles everywhere
+};
+
 /// One way to mesh a face.
 struct Candidate {
-  enum class Layout {
-    grid,   ///< by its outline, without triangles
-    rings,  ///< rings round the holes, triangles between them
-    plain   ///< triangles everywhere
-  };
   Layout layout;
   /// Quads are paired at the final size. Otherwise, with two segments a side, they are cut in four: these
   /// have fewer irregular nodes, but sizes seem to grow twice as fast to the quads of twice the size, and
@@ -61,7 +60,6 @@ class FaceMesher {
         plan_(nodes.plans[face]) {}
 
   FaceMesh run() {
-    using Layout = Candidate::Layout;
     constexpr std::array candidates{Candidate{Layout::grid, false}, Candidate{Layout::rings, false},
                                     Candidate{Layout::rings, true}, Candidate{Layout::plain, false},
                                     Candidate{Layout::plain, true}};
@@ -90,7 +88,6 @@ class FaceMesher {
 
  private:
   bool is_worth_trying(const Candidate& candidate, const std::optional<FaceMesh>& best) {
-    using Layout = Candidate::Layout;
     if (candidate.layout == Layout::grid) return recipe_.mapped;
     if (candidate.direct)
       return best && candidate.layout == layout_ && chart_.boundary.stride == 2 && recipe_.clean_up &&
@@ -102,9 +99,8 @@ class FaceMesher {
   /// Empty if the face has no such mesh. A problem is kept for the user and for the remedies.
   std::optional<FaceMesh> attempt(const Candidate& candidate) {
     try {
-      if (candidate.layout == Candidate::Layout::grid) return grid_mesh();
-      if (candidate.layout == Candidate::Layout::plain)
-        return finish(quads_inside(chart_.boundary, candidate));
+      if (candidate.layout == Layout::grid) return grid_mesh();
+      if (candidate.layout == Layout::plain) return finish(quads_inside(chart_.boundary, candidate));
       return ringed_mesh(candidate);
     } catch (const FaceProblem& problem) {
       context_.check();
@@ -145,7 +141,8 @@ class FaceMesher {
   /// Moves nodes of inverted quads off the surface, and notes how far.
   void leave_surface(FaceQuads& quads) {
     SurfaceMesh& mesh = quads.surface_mesh;
-    const std::vector<char> moved = unfold_in_space(mesh.mesh, mesh.fixed, recipe_.reach, context_);
+    const std::vector<char> moved =
+        unfold_in_space(mesh.mesh.quads, mesh.mesh.points, mesh.fixed, recipe_.reach, context_);
     off_.assign(moved.size(), 0);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       const Vector3& at = mesh.mesh.points[i];
@@ -207,7 +204,6 @@ class FaceMesher {
     result.nodes = std::move(quads.nodes);
     if (recipe_.chart != ChartKind::own) result.surface = chart_.surface;  // otherwise made again when needed
     result.off = off_;
-    result.q_min = 1;
     std::vector<int> inverted;
     SparseCheck check(context_);
     for (auto& quad : result.quads) {
@@ -215,7 +211,6 @@ class FaceMesher {
       if (shape_.faces[face_].reversed) std::swap(quad[1], quad[3]);
       if (quad_scaled_jacobian(result.points, quad) <= no_jacobian)
         inverted.push_back(static_cast<int>(&quad - result.quads.data()));
-      result.q_min = std::min(result.q_min, quad_q(result.points, quad));
     }
     if (!inverted.empty() && !recipe_.inverted_too)
       throw inverted_problem(shape_, face_, chart_, nodes_, result, inverted);
@@ -263,10 +258,10 @@ class FaceMesher {
   FaceJudge judge_;
   const FacePlan& plan_;
   std::optional<HoleRings> rings_;
-  std::optional<FaceProblem> problem_;                   // of the last candidate that failed
-  Candidate::Layout layout_ = Candidate::Layout::plain;  // of the best mesh other than a grid
-  bool may_leave_surface_ = false;                       // where quads are inverted
-  std::vector<double> off_;                              // (points) see FaceMesh::off
+  std::optional<FaceProblem> problem_;  // of the last candidate that failed
+  Layout layout_ = Layout::plain;       // of the best mesh other than a grid
+  bool may_leave_surface_ = false;      // where quads are inverted
+  std::vector<double> off_;             // (points) see FaceMesh::off
 };
 
 }  // namespace

@@ -32,4 +32,10 @@ FaceMesh mesh_face(const CadShape& shape, FaceId face, const FaceChart& chart, c
                    const SizingField& field, const MeshOptions& options, const FaceRecipe& recipe,
                    ExecutionContext& context);
 
+/// The problem of inverted quads, with the edges that they and the quads around them touch.
+/// \param inverted indices of the quads, at least one
+FaceProblem inverted_problem(const CadShape& shape, FaceId face, const FaceChart& chart,
+                             const BoundaryNodes& nodes, const FaceMesh& mesh,
+                             const std::vector<int>& inverted);
+
 }  // namespace quadrille

@@ -1,6 +1,6 @@
 /// Finds the corner that is inverted most, what it lies on, and the edges near it.
 
-#include "mesher/shell/inverted_quads.hpp"
+#include "mesher/shell/face_mesher.hpp"
 
 #include <algorithm>
 #include <array>

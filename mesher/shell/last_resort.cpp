@@ -17,7 +17,7 @@
 #include "mesher/faces/face_chart.hpp"
 #include "mesher/faces/loop_filling.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
-#include "mesher/mesh/quality.hpp"
+#include "mesher/mesh/sides.hpp"
 #include "mesher/quads/improve.hpp"
 
 namespace quadrille {
@@ -82,14 +82,12 @@ class LoopMesher {
       mesh_.nodes.pop_back();
       mesh_.points.pop_back();
       mesh_.uv.pop_back();
-      mesh_.off.pop_back();
     }
   }
 
   int add(const Vector3& point, const Vector2& uv) {
     mesh_.points.push_back(point);
     mesh_.uv.push_back(uv);
-    mesh_.off.push_back(0);
     return static_cast<int>(mesh_.points.size()) - 1;
   }
 
@@ -117,20 +115,13 @@ class LoopMesher {
     for (std::size_t i = mesh_.nodes.size(); i < mesh_.points.size(); ++i)
       mesh_.points[i] = surface_.project(mesh_.uv[i], spanned[i]).point;
     mesh_.pole.assign(mesh_.points.size(), 0);
+    mesh_.off.assign(mesh_.points.size(), 0);
     if (has_inverted_quads(mesh_)) mesh_.points = spanned;
-    QuadMesh quads;
-    quads.points = std::move(mesh_.points);
-    quads.quads = std::move(mesh_.quads);
-    std::vector<char> fixed(quads.points.size(), 0);
+    std::vector<char> fixed(mesh_.points.size(), 0);
     std::fill_n(fixed.begin(), mesh_.nodes.size(), 1);
-    unfold_in_space(quads, fixed, std::numeric_limits<double>::infinity(), context_);
-    mesh_.points = std::move(quads.points);
-    mesh_.quads = std::move(quads.quads);
-    mesh_.q_min = 1;
-    for (auto& quad : mesh_.quads) {
-      if (face_.reversed) std::swap(quad[1], quad[3]);
-      mesh_.q_min = std::min(mesh_.q_min, quad_q(mesh_.points, quad));
-    }
+    unfold_in_space(mesh_.quads, mesh_.points, fixed, std::numeric_limits<double>::infinity(), context_);
+    if (face_.reversed)
+      for (auto& quad : mesh_.quads) std::swap(quad[1], quad[3]);
     for (std::size_t i = mesh_.nodes.size(); i < mesh_.points.size(); ++i)
       mesh_.off[i] = (surface_.project(mesh_.uv[i], mesh_.points[i]).point - mesh_.points[i]).norm();
   }
@@ -171,16 +162,12 @@ class Surroundings {
     quads_.points = nodes.points;
     for (const FaceId id : faces_) {
       const FaceMesh& mesh = *meshes[id];
-      const std::size_t fixed = mesh.nodes.size();
-      const int first = static_cast<int>(quads_.points.size() - fixed);
-      quads_.points.insert(quads_.points.end(), mesh.points.begin() + static_cast<long>(fixed),
-                           mesh.points.end());
-      for (const auto& quad : mesh.quads) {
-        auto& corners = quads_.quads.emplace_back();
-        std::transform(quad.begin(), quad.end(), corners.begin(), [&](int corner) {
-          return corner < static_cast<int>(fixed) ? mesh.nodes[corner] : first + corner;
-        });
+      std::vector<int> numbers = mesh.nodes;
+      for (std::size_t i = mesh.nodes.size(); i < mesh.points.size(); ++i) {
+        numbers.push_back(static_cast<int>(quads_.points.size()));
+        quads_.points.push_back(mesh.points[i]);
       }
+      for (const auto& quad : mesh.quads) quads_.quads.push_back(with_numbers(quad, numbers));
     }
   }
 
@@ -192,7 +179,7 @@ class Surroundings {
     for (const FaceId id : meshes_.ids())
       if (meshes_[id] && !faces_.contains(id))
         for (const int node : meshes_[id]->nodes) fixed[node] = 1;
-    unfold_in_space(quads_, fixed, reach, context);
+    unfold_in_space(quads_.quads, quads_.points, fixed, reach, context);
     return !has_inverted_quads(quads_);
   }
 

@@ -42,8 +42,8 @@ struct FaceMidsides {
   std::vector<Vector3> points;
   std::vector<Vector2> parameters;
   std::vector<std::pair<int, double>> off;  ///< points off the surface, and how far
-  /// Sides between boundary nodes: index into points and key, ascending. Other faces may have them too.
-  std::vector<std::pair<int, std::uint64_t>> chords;
+  /// (points) keys of sides between boundary nodes, which other faces may have too; 0 = another side
+  std::vector<std::uint64_t> chords;
 };
 
 FaceMidsides place_inside(FaceId id, const MeshedFaces& meshed, const ShellNumbering& numbering,
@@ -61,7 +61,8 @@ FaceMidsides place_inside(FaceId id, const MeshedFaces& meshed, const ShellNumbe
   result.points.reserve(2 * face.quads.size());
   result.parameters.reserve(2 * face.quads.size());
   const int fixed = static_cast<int>(face.nodes.size());
-  const auto place = [&](int a, int b) {
+  const auto place = [&](int a, int b, std::uint64_t chord) {
+    const int index = static_cast<int>(result.points.size());
     Vector2& uv = result.parameters.emplace_back();
     Vector3 middle = surface_middle(*surface, face, a, b, uv);
     if (std::max(a, b) < fixed && !meshed.nodes.middles.empty()) {
@@ -71,9 +72,9 @@ FaceMidsides place_inside(FaceId id, const MeshedFaces& meshed, const ShellNumbe
     const bool is_off = !face.off.empty() && std::max(face.off[a], face.off[b]) > 0;
     const Vector3 straight = 0.5 * (face.points[a] + face.points[b]);
     result.points.push_back(is_off ? straight : middle);
-    if (is_off)
-      result.off.emplace_back(static_cast<int>(result.points.size()) - 1, (straight - middle).norm());
-    return static_cast<int>(result.points.size()) - 1;
+    result.chords.push_back(chord);
+    if (is_off) result.off.emplace_back(index, (straight - middle).norm());
+    return index;
   };
   for (const auto& quad : face.quads) {
     check();
@@ -83,13 +84,12 @@ FaceMidsides place_inside(FaceId id, const MeshedFaces& meshed, const ShellNumbe
       if (std::max(a, b) < fixed) {
         const std::uint64_t key = side_key(numbering.nodes[face.nodes[a]], numbering.nodes[face.nodes[b]]);
         const auto on_edge = middles.find(key);
-        of_quad[k] = on_edge != middles.end() ? -1 - on_edge->second : place(a, b);
-        if (of_quad[k] >= 0) result.chords.emplace_back(of_quad[k], key);
+        of_quad[k] = on_edge != middles.end() ? -1 - on_edge->second : place(a, b, key);
         continue;
       }
       const Side side = make_side(static_cast<int>(result.of_quads.size()) - 1, k);
-      of_quad[k] =
-          first[side] == side ? place(a, b) : result.of_quads[element_of(first[side])][index_of(first[side])];
+      of_quad[k] = first[side] == side ? place(a, b, 0)
+                                       : result.of_quads[element_of(first[side])][index_of(first[side])];
     }
   }
   return result;
@@ -100,15 +100,11 @@ void number(const FaceMidsides& face, ShellMesh& mesh, std::vector<Vector2>& par
             SparseCheck& check) {
   std::vector<int> numbers;
   numbers.reserve(face.points.size());
-  auto chord = face.chords.begin();
   for (std::size_t i = 0; i < face.points.size(); ++i) {
     check();
     const int next = static_cast<int>(mesh.points.size());
-    numbers.push_back(next);
-    if (chord != face.chords.end() && chord->first == static_cast<int>(i)) {
-      numbers.back() = middles.emplace(chord++->second, next).first->second;
-      if (numbers.back() != next) continue;
-    }
+    numbers.push_back(face.chords[i] == 0 ? next : middles.emplace(face.chords[i], next).first->second);
+    if (numbers.back() != next) continue;
     mesh.points.push_back(face.points[i]);
     parameters.push_back(face.parameters[i]);
   }

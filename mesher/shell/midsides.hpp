@@ -1,6 +1,6 @@
 #pragma once
 /// The model behind a mesh, a CAD shape or a scan cut into faces, and the midside nodes that second-order
-/// meshes have on it. Internal.
+/// meshes have on it, or beside it where elements would fold. Internal.
 
 #include <algorithm>
 #include <cstddef>
@@ -69,10 +69,6 @@ struct ShellNumbering {
     const auto next = std::upper_bound(first_quad.begin(), first_quad.end(), quad);
     return FaceId::from_index(next - first_quad.begin() - 1);
   }
-  /// The first quad of a face in the shell, and the one after its last.
-  std::pair<std::size_t, std::size_t> quads_of(FaceId face) const {
-    return {first_quad[face.index()], first_quad[face.index() + 1]};
-  }
 };
 
 /// The midside nodes of a shell. They are its last points, those on CAD edges before those inside faces.
@@ -85,5 +81,13 @@ struct Midsides {
 /// ends. The others lie on the face's surface, nearest to the middle of the side. Linear in the mesh.
 Midsides add_midsides(const MeshedFaces& meshed, const ShellNumbering& numbering, ShellMesh& mesh,
                       const ExecutionContext& context);
+
+/// Moves midside nodes until no element folds (see second_order.hpp): toward the middle of the straight side,
+/// by as little as helps, those inside faces first, then those on CAD edges, for all faces that share them.
+/// Nodes off the geometry are listed in `mesh.off_geometry`. With straight sides an element with a positive
+/// scaled Jacobian does not fold, so only inverted quads and quads without area still fold in the end.
+/// \return the quads that still fold, ascending. Linear in the mesh and in the number of elements that fold.
+std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
+                                const Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context);
 
 }  // namespace quadrille

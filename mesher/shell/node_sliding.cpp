@@ -62,7 +62,7 @@ struct FaceState {
   std::vector<double> weight;                  // (quads) of the objective
   std::vector<char> active;                    // (points) 1 = to be visited
   std::vector<char> slid;                      // (boundary points) 1 = moved; uv must be updated
-  bool touched = false;                        // nodes or quads changed
+  bool mended = false;                         // quads were replaced
   int moves = 0;                               // nodes moved in the last sweep
 
   const MeshSurface& get_surface() {
@@ -120,18 +120,11 @@ struct FaceState {
     for (std::size_t i = 0; i < poor.size(); ++i) active[i] &= poor[i];
   }
 
-  /// Updates uv and q_min after nodes moved.
-  void finish(const ExecutionContext& context) {
+  /// Updates uv after nodes moved.
+  void finish() {
     turn_as_surface();
-    if (!touched) return;
     for (std::size_t i = 0; i < slid.size(); ++i)
       if (slid[i]) get_surface().nearest(mesh->uv[i], mesh->points[i]);
-    mesh->q_min = 1;
-    SparseCheck check(context);
-    for (const auto& quad : mesh->quads) {
-      check();
-      mesh->q_min = std::min(mesh->q_min, quad_q(mesh->points, quad));
-    }
   }
 };
 
@@ -175,7 +168,8 @@ class Round {
   bool needs_move() {
     if (uses_.empty() || worst_objective_ <= aim_.poor) return false;
     shortest_ = std::numeric_limits<double>::max();
-    double aspect = 1;  // largest ratio of the two sides of a quad at the node
+    double aspect = 1;        // largest ratio of the two sides of a quad at the node
+    double off_parallel = 0;  // largest difference of opposite sides
     double sum = 0, short_sum = 0;
     for (const QuadUse& use : uses_) {
       const Vector3& here = use.at(0);
@@ -185,16 +179,13 @@ class Round {
       aspect = std::max(aspect, longer / shorter);
       sum += next + previous;
       short_sum += shorter;
-    }
-    mean_ = sum / (2.0 * static_cast<double>(uses_.size()));
-    double off_parallel = 0;  // largest difference of opposite sides, over the mean length
-    for (const QuadUse& use : uses_) {
       const Vector3 off = use.face->corner(use.quad, 0) - use.face->corner(use.quad, 1) +
                           use.face->corner(use.quad, 2) - use.face->corner(use.quad, 3);
-      off_parallel = std::max(off_parallel, off.norm() / mean_);
+      off_parallel = std::max(off_parallel, off.norm());
     }
+    mean_ = sum / (2.0 * static_cast<double>(uses_.size()));
     const bool uneven = aspect > inside_aspect && (sum - short_sum) / short_sum < inside_aspect;
-    return !(least_sine_ > inside_limits && !uneven && off_parallel < parallel_share);
+    return !(least_sine_ > inside_limits && !uneven && off_parallel / mean_ < parallel_share);
   }
 
   /// \return whether the patch has all quads
@@ -246,7 +237,6 @@ class Round {
       const auto& [face, quad, corner] = uses_[i];
       face->objective[quad] = measured_[i].value;
       face->least_sine[quad] = measured_[i].least_sine;
-      face->touched = true;
       if (!wakes) continue;
       for (const int node : face->mesh->quads[quad]) face->active[node] = 1;
     }
@@ -401,9 +391,7 @@ bool relax(FaceState& face, int node, const Aim& aim, Round& round) {
   FaceMesh& mesh = *face.mesh;
   const Vector3& here = mesh.points[node];
   Vector3 normal = Vector3::Zero();
-  for (const QuadUse& use : round.uses())
-    normal += (face.corner(use.quad, 2) - face.corner(use.quad, 0))
-                  .cross(face.corner(use.quad, 3) - face.corner(use.quad, 1));
+  for (const QuadUse& use : round.uses()) normal += quad_area_vector(mesh.points, mesh.quads[use.quad]);
   const Vector3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
   CriteriaPatch patch(u, v, aim.squareness);
   if (!round.draw(patch)) return false;
@@ -491,7 +479,7 @@ void mend(FaceState& face, const ExecutionContext& context) {
   } catch (const Standard_Failure&) {
     return;  // the surface cannot be evaluated somewhere: the face stays as it is
   }
-  face.touched = true;
+  face.mended = true;
   mesh.points = std::move(work.mesh.points);
   mesh.quads = std::move(work.mesh.quads);
   mesh.uv = std::move(work.parameters);
@@ -546,12 +534,12 @@ class NodeSliding {
       face.measure_all(toward_limits, context_);
       quadrille::mend(face, context_);
     });
-    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.touched; });
+    return std::any_of(states_.begin(), states_.end(), [](const FaceState& face) { return face.mended; });
   }
 
-  /// Updates uv and q_min after nodes moved.
+  /// Updates uv after nodes moved.
   void finish() {
-    for_each_face([&](FaceState& face) { face.finish(context_); });
+    for_each_face([](FaceState& face) { face.finish(); });
   }
 
  private:

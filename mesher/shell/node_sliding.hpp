@@ -1,7 +1,6 @@
 #pragma once
 /// The last optimization: moves the nodes of all faces together, including those on CAD edges. Internal.
 
-#include <optional>
 #include <vector>
 
 #include "geometry/base/execution_context.hpp"
@@ -18,7 +17,7 @@ namespace quadrille {
 /// (TinyFeatures) and nodes of edges with a prescribed spacing. No quad becomes concave, and none gets a
 /// scaled Jacobian below both 0.5 and that of the worst quad around the same node. Segments on edges stay
 /// between 0.5 and 1.5 times their original length in the curve's parameter (at most 1.15 times on curved
-/// edges). Updates the parameters and points of `nodes`, and the points, uv and q_min of the faces. With
+/// edges). Updates the parameters and points of `nodes`, and the points and uv of the faces. With
 /// ImproveOptions::clean_up, faces are then taken as one along smooth edges beside quads that are still
 /// outside the criteria (join_smooth_faces()), patches around these quads are refilled with other quads
 /// (mend_quads()), except in grids, and nodes move once more. This renumbers points inside faces. Faces run

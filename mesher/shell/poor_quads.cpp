@@ -3,7 +3,6 @@
 
 #include "mesher/shell/poor_quads.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -71,12 +70,11 @@ class Finder {
 
   void find_poor_quads() {
     std::vector<signed char> shortest(mesh_.quads.size(), -1);  // of poor quads
-    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<int>(0, static_cast<int>(mesh_.quads.size())),
-                              [&](const auto& range) {
-                                for (int quad = range.begin(); quad < range.end(); ++quad)
-                                  if (is_poor(quad)) shortest[quad] = shortest_side(quad);
-                              });
-    for (int quad = 0; quad < static_cast<int>(mesh_.quads.size()); ++quad) {
+    const int count = static_cast<int>(mesh_.quads.size());
+    oneapi::tbb::parallel_for(0, count, [&](int quad) {
+      if (is_poor(quad)) shortest[quad] = shortest_side(quad);
+    });
+    for (int quad = 0; quad < count; ++quad) {
       if (shortest[quad] < 0) continue;
       poor_.push_back(make_side(quad, shortest[quad]));
       faces_.try_emplace(mesh_.quad_faces[quad]);

@@ -1,13 +1,17 @@
 /// Based on: Johnen, Remacle, Geuzaine, Geometrical validity of curvilinear finite elements (2013), for what
 /// counts as valid.
 
-#include "mesher/shell/unfolding.hpp"
+#include "mesher/shell/midsides.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
-#include "geometry/cad/parallel_ids.hpp"
 #include "mesher/mesh/second_order.hpp"
 #include "mesher/mesh/sides.hpp"
 
@@ -35,14 +39,12 @@ class Straightening {
   /// Ends, because each round raises shares, and their number is bounded by the number of sides.
   void run(std::vector<std::size_t> folded) {
     while (!folded.empty()) {
-      std::vector<std::size_t> touched;
+      std::set<std::size_t> touched;
       for (const std::size_t quad : folded) {
         check_();
         if (folds_in(mesh_, quad)) straighten(quad, touched);
       }
-      std::sort(touched.begin(), touched.end());
-      touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-      folded = std::move(touched);
+      folded.assign(touched.begin(), touched.end());
     }
     relax();
   }
@@ -90,8 +92,8 @@ class Straightening {
   }
 
   /// Raises the shares of an element's sides until it does not fold: first those inside faces, then all.
-  /// \param touched out: the neighbors across sides that changed are appended.
-  void straighten(std::size_t quad, std::vector<std::size_t>& touched) {
+  /// \param touched out: the neighbors across sides that changed are added.
+  void straighten(std::size_t quad, std::set<std::size_t>& touched) {
     const double bound = wanted(quad);
     const std::array<int, 4> nodes = mesh_.midsides[quad];
     std::array<int, 4> before{};
@@ -106,7 +108,7 @@ class Straightening {
         for (int k = 0; k < 4; ++k) {
           if (sides_.at(nodes[k]).share == before[k]) continue;
           for (const Side user : users_[nodes[k]])
-            if (quad_of(user) != quad) touched.push_back(quad_of(user));
+            if (quad_of(user) != quad) touched.insert(quad_of(user));
         }
         return;
       }
@@ -142,26 +144,19 @@ class Straightening {
   std::map<int, Straightened> sides_;
 };
 
-using QuadsOfFaces = IdVector<FaceId, std::vector<std::size_t>>;
-
-/// The elements that fold.
-QuadsOfFaces find_folded(const ShellMesh& mesh, const MeshedFaces& meshed, const ShellNumbering& numbering,
-                         const ExecutionContext& context) {
-  QuadsOfFaces result(meshed.faces.size());
-  for_each_id(result, [&](FaceId face) {
-    SparseCheck check(context, 256);
-    const auto [first, end] = numbering.quads_of(face);
-    for (std::size_t quad = first; quad < end; ++quad) {
-      check();
-      if (folds_in(mesh, quad)) result[face].push_back(quad);
-    }
-  });
-  return result;
-}
-
-std::vector<std::size_t> joined(const QuadsOfFaces& of_faces) {
+/// The elements that fold, ascending.
+std::vector<std::size_t> find_folded(const ShellMesh& mesh, const ExecutionContext& context) {
+  std::vector<char> folds(mesh.quads.size(), 0);
+  constexpr std::size_t quads_per_check = 256;
+  const oneapi::tbb::blocked_range<std::size_t> all(0, folds.size(), quads_per_check);
+  const auto look_at = [&](const auto& range) {
+    context.check();
+    for (std::size_t quad = range.begin(); quad < range.end(); ++quad) folds[quad] = folds_in(mesh, quad);
+  };
+  oneapi::tbb::parallel_for(all, look_at, oneapi::tbb::simple_partitioner());
   std::vector<std::size_t> result;
-  for (const auto& quads : of_faces) result.insert(result.end(), quads.begin(), quads.end());
+  for (std::size_t quad = 0; quad < folds.size(); ++quad)
+    if (folds[quad]) result.push_back(quad);
   return result;
 }
 
@@ -191,12 +186,12 @@ void list(const Straightening& straightening, const MeshedFaces& meshed, const S
 
 std::vector<std::size_t> unfold(const MeshedFaces& meshed, const ShellNumbering& numbering,
                                 const Midsides& midsides, ShellMesh& mesh, const ExecutionContext& context) {
-  const std::vector<std::size_t> left = joined(find_folded(mesh, meshed, numbering, context));
+  const std::vector<std::size_t> left = find_folded(mesh, context);
   if (left.empty()) return {};
   Straightening straightening(mesh, midsides.first_inner, context);
   straightening.run(left);
   list(straightening, meshed, numbering, midsides, mesh);
-  return joined(find_folded(mesh, meshed, numbering, context));
+  return find_folded(mesh, context);
 }
 
 }  // namespace quadrille

@@ -219,9 +219,7 @@ void check_midsides(const ShellMesh& mesh, Findings& findings) {
   const int n = static_cast<int>(mesh.points.size());
   std::unordered_map<std::uint64_t, int> middle_of;
   std::vector<std::uint64_t> side_of(mesh.points.size(), 0);
-  std::vector<char> corner(mesh.points.size(), 0);
-  for (const auto& quad : mesh.quads)
-    for (const int node : quad) corner[node] = 1;
+  const std::vector<char> corner = used_points({mesh.points, mesh.quads, {}});
   for (std::size_t i = 0; i < mesh.quads.size(); ++i)
     for (int k = 0; k < 4; ++k) {
       const int middle = mesh.midsides[i][k];

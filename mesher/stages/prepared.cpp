@@ -3,7 +3,6 @@
 #include "mesher/stages/prepared.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "geometry/sizing/element_count.hpp"
 #include "geometry/surfaces/stray_edges.hpp"

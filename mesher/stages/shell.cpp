@@ -11,6 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "geometry/base/place_text.hpp"
+#include "geometry/cad/parallel_ids.hpp"
+#include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/shell/assembly.hpp"
 #include "mesher/shell/poor_quads.hpp"
 #include "mesher/shell/size_fidelity.hpp"
@@ -62,7 +64,8 @@ ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary&
   if (record.problem) status.note = record.problem->what();
   if (!mesh) return status;
   status.quads = static_cast<int>(mesh->quads.size());
-  status.q_min = mesh->q_min;
+  status.q_min = 1;
+  for (const auto& quad : mesh->quads) status.q_min = std::min(status.q_min, quad_q(mesh->points, quad));
   return status;
 }
 
@@ -164,8 +167,9 @@ ShellMesh assemble(const Run& run, const Boundary& boundary, const Faces& faces,
   if (prepared.options.partial) run.context.lift_time_limit();
   ShellMesh result =
       assemble(CadGeometry(shape), boundary.nodes, faces.meshes, prepared.options.order, run.context);
-  for (const FaceId face : shape.faces.ids())
-    result.faces.push_back(status_of(face, prepared, boundary, faces));
+  result.faces.resize(shape.faces.size());
+  for_each_id(shape.faces,
+              [&](FaceId face) { result.faces[face.index()] = status_of(face, prepared, boundary, faces); });
   result.suppressed_features = suppressed_features(prepared, boundary.plan.tiny);
   result.kept = kept_features(shape, boundary.suppressed);
   result.filled_holes = prepared.simple.holes;

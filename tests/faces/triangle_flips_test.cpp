@@ -1,6 +1,6 @@
 /// Sides know both their triangles, and flips leave Delaunay triangles.
 
-#include "mesher/faces/triangle_flips.hpp"
+#include "mesher/faces/face_triangulation.hpp"
 
 #include <gtest/gtest.h>
 

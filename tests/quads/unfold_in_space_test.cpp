@@ -35,7 +35,7 @@ TEST(UnfoldInSpace, MovesTheFreeNodeOfInvertedQuads) {
   ASSERT_LE(worst(mesh), 0);
   std::vector<char> fixed(9, 1);
   fixed[4] = 0;
-  const std::vector<char> moved = unfold_in_space(mesh, fixed, 1e9, ExecutionContext());
+  const std::vector<char> moved = unfold_in_space(mesh.quads, mesh.points, fixed, 1e9, ExecutionContext());
   EXPECT_GT(worst(mesh), 0.9);
   for (int i = 0; i < 9; ++i) {
     EXPECT_EQ(moved[i], i == 4 ? 1 : 0) << i;
@@ -46,14 +46,15 @@ TEST(UnfoldInSpace, MovesTheFreeNodeOfInvertedQuads) {
 
 TEST(UnfoldInSpace, LeavesValidQuadsAlone) {
   QuadMesh mesh = star({1.2, 0.9, 0});
-  const std::vector<char> moved = unfold_in_space(mesh, std::vector<char>(9, 0), 1e9, ExecutionContext());
+  const std::vector<char> moved =
+      unfold_in_space(mesh.quads, mesh.points, std::vector<char>(9, 0), 1e9, ExecutionContext());
   EXPECT_EQ(std::count(moved.begin(), moved.end(), 1), 0);
   EXPECT_EQ(mesh.points[4], Vector3(1.2, 0.9, 0));
 }
 
 TEST(UnfoldInSpace, EndsWhereAllNodesAreFixed) {
   QuadMesh mesh = star({3, 3, 0});
-  unfold_in_space(mesh, std::vector<char>(9, 1), 1e9, ExecutionContext());
+  unfold_in_space(mesh.quads, mesh.points, std::vector<char>(9, 1), 1e9, ExecutionContext());
   EXPECT_LE(worst(mesh), 0);
 }
 

@@ -1,6 +1,6 @@
 /// The problem of inverted quads names the place, what lies there, and the edges around it.
 
-#include "mesher/shell/inverted_quads.hpp"
+#include "mesher/shell/face_mesher.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Second-order meshes however coarse: no element folds, and what that costs is told.
 
-#include "mesher/shell/unfolding.hpp"
+#include "mesher/shell/midsides.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
