@@ -11,6 +11,9 @@
 
 namespace quadrille {
 
+/// The largest ratio between wanted counts of a chord's edges, or of facing sides, of which one is fixed.
+constexpr double largest_fixed_ratio = 4;
+
 /// Classes of edges: a union-find structure that also records which members run in opposite directions.
 class Chords {
  public:

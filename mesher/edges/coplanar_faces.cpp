@@ -19,6 +19,7 @@
 
 #include "geometry/cad/cad_shape.hpp"
 #include "mesher/edges/tiny_features.hpp"
+#include "mesher/mesh/criteria.hpp"
 
 namespace quadrille {
 
@@ -141,7 +142,6 @@ class CoplanarFaces {
 
   /// \return false if the wire is not a plain loop
   bool measure(const CadWire& wire, PlaneFace& plane) const {
-    constexpr int pieces_of_curve = 16;
     double area = 0, length = 0;
     for (std::size_t i = 0; i < wire.coedges.size(); ++i) {
       const Coedge &coedge = wire.coedges[i], &next = wire.coedges[(i + 1) % wire.coedges.size()];
@@ -153,8 +153,8 @@ class CoplanarFaces {
       const double turn = std::atan2(in.x() * out.y() - in.y() * out.x(), in.dot(out));
       plane.angles[end] += std::numbers::pi - turn;
       Vector2 from = parametric_point(coedge, edge.first);
-      for (int k = 1; k <= pieces_of_curve; ++k) {
-        const double t = edge.first + (edge.last - edge.first) * k / pieces_of_curve;
+      for (int k = 1; k <= steps_of_edge; ++k) {
+        const double t = edge.first + (edge.last - edge.first) * k / steps_of_edge;
         const Vector2 to = parametric_point(coedge, t);
         area += (coedge.forward ? 0.5 : -0.5) * (from.x() * to.y() - from.y() * to.x());
         from = to;
@@ -184,7 +184,7 @@ class CoplanarFaces {
 
   /// Whether the edge between a group and another face had better not be there.
   bool does_harm(EdgeId id, const Group& group, const PlaneFace& other) const {
-    constexpr double sharp = 40 * std::numbers::pi / 180;
+    constexpr double sharp = usual_limit(Criterion::angle_min) * std::numbers::pi / 180;
     const CadEdge& edge = shape_.edges[id];
     const PlaneFace& whole = group.whole;
     const auto is_bad = [&](VertexId end) {
@@ -196,10 +196,9 @@ class CoplanarFaces {
 
   /// Whether the edges of a face lie in a plane, within the tolerances of the face and of that of the plane.
   bool lies_in_plane(const PlaneFace& plane, FaceId first, FaceId face) const {
-    constexpr int samples = 4;
     const double tolerance = std::max(shape_.faces[first].tolerance, shape_.faces[face].tolerance);
     for (const EdgeId id : shape_.faces[face].edges()) {
-      for (const Vector3& point : points_along(shape_.edges[id], samples))
+      for (const Vector3& point : points_along(shape_.edges[id]))
         if (std::abs((point - plane.origin).dot(plane.normal)) >
             std::max(tolerance, shape_.edges[id].tolerance))
           return false;
@@ -300,11 +299,10 @@ std::optional<CadFace> joined(const CadShape& shape, const std::vector<FaceId>& 
 /// Puts the joined face in the place of the first. \param inner edges between the members
 void replace(CadShape& shape, const std::vector<FaceId>& members, const std::vector<EdgeId>& inner,
              CadFace face, SimplifiedModel& model) {
-  constexpr int pieces = 32;
   const FaceId first = members.front();
   for (const EdgeId id : inner) {
     CadEdge& edge = shape.edges[id];
-    model.inner.push_back(crossed_edge(edge, pieces));
+    model.inner.push_back(crossed_edge(edge));
     edge.faces.clear();
   }
   for (const FaceId member : members) {

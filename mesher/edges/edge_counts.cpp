@@ -23,7 +23,6 @@ namespace {
 constexpr double largest_ratio = 2;  // between wanted counts of the sides of a pair, or edges of a chord
 /// The same between sides of several edges, which leave the other edges on them no choice.
 constexpr double largest_ratio_of_sums = 1.3;
-constexpr double largest_fixed_ratio = 4;  // the same if one of them is fixed
 
 bool has_sums(const FaceSides& sides) {
   return std::ranges::any_of(sides.facing, &FacingPair::has_sum);

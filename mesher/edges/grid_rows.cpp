@@ -10,9 +10,6 @@ namespace quadrille {
 
 namespace {
 
-/// Largest ratio, either way, between the wanted count of a member of a chord and the count that it gets.
-constexpr double largest_row_ratio = 4;
-
 /// The edge opposite another one across a four-sided face or ring; none if there is no single such edge.
 EdgeId opposite(const FaceSides& sides, EdgeId edge) {
   if (!sides.is_filled()) return {};
@@ -59,7 +56,7 @@ EdgeFlags find_grid_rows(const CadShape& shape, const FaceOutlines& sides, const
       if (const int number = fixed_number(member)) return number == segments;
       const double own = std::min(size, value_or(options.edge_sizes, shape.edges[member].number, size));
       const double wanted = std::max(1.0, shape.edges[member].length / own);
-      return segments <= largest_row_ratio * wanted && wanted <= largest_row_ratio * segments;
+      return segments <= largest_fixed_ratio * wanted && wanted <= largest_fixed_ratio * segments;
     });
   }
   return divided;

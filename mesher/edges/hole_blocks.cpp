@@ -9,6 +9,7 @@
 
 #include "geometry/base/whole_number.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/edges/tiny_features.hpp"
 
 namespace quadrille {
 
@@ -150,7 +151,6 @@ class HoleFitter {
 }  // namespace
 
 std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& face, const FaceSides& sides) {
-  constexpr int samples = 32;
   const Vector2 scale = FaceSurface(face).mean_scale();
   const auto place = [&](const Coedge& coedge, double share) -> Vector2 {
     const CadEdge& edge = shape.edges[coedge.edge];
@@ -174,8 +174,8 @@ std::vector<HoleShares> shares_of_holes(const CadShape& shape, const CadFace& fa
     HoleShares& hole = result.emplace_back();
     for (const Coedge& coedge : face.wires[wire].coedges) {
       hole.vertices.push_back(share_of(place(coedge, 0)));
-      for (int i = 0; i < samples; ++i)
-        hole.points.push_back(share_of(place(coedge, static_cast<double>(i) / samples)));
+      for (int i = 0; i < steps_of_edge; ++i)
+        hole.points.push_back(share_of(place(coedge, static_cast<double>(i) / steps_of_edge)));
     }
   }
   return result;

@@ -77,7 +77,6 @@ class HoleFinder {
 
  private:
   static constexpr int none = -1;
-  static constexpr int samples = 12;
   static constexpr std::size_t most_faces = 64;  // of a hole
 
   void find_loops(FaceId face) {
@@ -104,8 +103,8 @@ class HoleFinder {
     for (const Coedge& coedge : wire.coedges) {
       const CadEdge& edge = shape_.edges[coedge.edge];
       if (coedge.internal || edge.degenerate || coedge.parametric_curve.IsNull()) return false;
-      for (int i = 0; i <= samples; ++i) {
-        const double share = static_cast<double>(coedge.forward ? i : samples - i) / samples;
+      for (int i = 0; i <= steps_of_edge; ++i) {
+        const double share = static_cast<double>(coedge.forward ? i : steps_of_edge - i) / steps_of_edge;
         points.push_back(parametric_point(coedge, edge.first + share * (edge.last - edge.first)));
       }
     }
@@ -125,7 +124,7 @@ class HoleFinder {
     if (std::ranges::any_of(wire.coedges, [&](const Coedge& coedge) { return stays(coedge.edge); }))
       return false;
     if (length_of(shape_, wire) > 2 * std::numbers::pi * diameter_) return false;  // of any outline
-    const std::vector<Vector3> points = points_around(shape_, wire, samples);
+    const std::vector<Vector3> points = points_around(shape_, wire);
     for (const Vector3& a : points) {
       for (const Vector3& b : points) loop.diameter = std::max(loop.diameter, (a - b).norm());
     }
@@ -185,7 +184,7 @@ class HoleFinder {
     int count = 0;
     for (const FaceId face : hole.faces) {
       for (const EdgeId edge : shape_.faces[face].edges()) {
-        for (const Vector3& point : points_along(shape_.edges[edge], samples)) {
+        for (const Vector3& point : points_along(shape_.edges[edge])) {
           const Vector3 from = point - mouth.center;
           if (from.cross(axis).norm() > diameter_) return false;
           height = std::max(height, from.dot(mouth.axis));

@@ -12,9 +12,9 @@
 
 namespace quadrille {
 
-/// An edge between two faces that are meshed as one. \param pieces see points_along()
-inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge, int pieces) {
-  return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, pieces)};
+/// An edge between two faces that are meshed as one.
+inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge) {
+  return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge)};
 }
 
 /// Whether a setting names an edge or one of its vertices.

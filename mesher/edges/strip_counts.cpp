@@ -46,13 +46,12 @@ double shortest_segment(double length, const std::vector<double>& shares, const 
 
 /// \param along the sides from end to end, cut into pairs
 StripRefiner::Waist StripRefiner::waist_between(std::span<const FacingPair> along) const {
-  constexpr int pieces_of_side = 16;
   std::array<std::vector<Vector3>, 2> sides;
   for (const FacingPair& pair : along)
     for (const FaceSide* side : {&pair.first, &pair.second})
       for (const SideEdge& edge : *side) {
-        const int pieces = std::max(1, pieces_of_side / static_cast<int>(along.size() * side->size()));
-        const std::vector<Vector3> points = points_along(shape_.edges[edge.edge], pieces, edge.forward);
+        const int steps = std::max(1, steps_of_edge / static_cast<int>(along.size() * side->size()));
+        const std::vector<Vector3> points = points_along(shape_.edges[edge.edge], steps, edge.forward);
         std::vector<Vector3>& all = sides[side == &pair.first ? 0 : 1];
         all.insert(all.end(), points.begin(), points.end());
       }

@@ -79,7 +79,6 @@ class HarmFinder {
 
   /// Whether a loop with free edges that would lose others is hardly wider than these may be long.
   bool is_narrow(FaceId id, const CadWire& wire) const {
-    constexpr int samples = 8;
     constexpr double hardly = 2;
     const auto is_free = [&](const Coedge& coedge) {
       return !is_gone(id, coedge) && shape_.edges[coedge.edge].faces.size() == 1;
@@ -87,7 +86,7 @@ class HarmFinder {
     if (std::ranges::none_of(wire.coedges, is_free) ||
         std::ranges::none_of(wire.coedges, [&](const Coedge& c) { return is_gone(id, c); }))
       return false;
-    const double area = vector_area(points_around(shape_, wire, samples)).norm();
+    const double area = vector_area(points_around(shape_, wire)).norm();
     return area < 0.5 * length_of(shape_, wire) * hardly * reach_;
   }
 

@@ -205,29 +205,28 @@ bool is_small(const CadEdge& edge, double reach) {
   if (edge.length < reach) return true;
   // The longest smooth loop of that size without turning back is about a circle.
   constexpr double longest = 4;
-  constexpr int samples = 16;
   if (!(edge.length < longest * reach)) return false;
   if (EdgeCurve(edge).straight()) return false;
-  const std::vector<Vector3> points = points_along(edge, samples);
+  const std::vector<Vector3> points = points_along(edge);
   for (const Vector3& one : points)
     for (const Vector3& other : points)
       if ((one - other).norm() > reach) return false;
   return true;
 }
 
-std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward) {
+std::vector<Vector3> points_along(const CadEdge& edge, int steps, bool forward) {
   const EdgeCurve curve(edge);
   std::vector<Vector3> points;
-  for (int i = 0; i <= pieces; ++i)
-    points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / pieces)));
+  for (int i = 0; i <= steps; ++i)
+    points.push_back(curve.point(edge.first + (edge.last - edge.first) * (static_cast<double>(i) / steps)));
   if (!forward) std::ranges::reverse(points);
   return points;
 }
 
-std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire, int pieces) {
+std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire) {
   std::vector<Vector3> points;
   for (const Coedge& coedge : wire.coedges) {
-    const std::vector<Vector3> along = points_along(shape.edges[coedge.edge], pieces, coedge.forward);
+    const std::vector<Vector3> along = points_along(shape.edges[coedge.edge], steps_of_edge, coedge.forward);
     points.insert(points.end(), along.begin(), along.end() - 1);
   }
   return points;
@@ -247,10 +246,10 @@ double distance_to_line(const Vector3& point, const std::vector<Vector3>& line) 
 }
 
 double distance_between(const CadEdge& edge, const CadEdge& other) {
-  constexpr int samples = 16, dense = 256;
-  const std::vector<Vector3> along = points_along(edge, samples), points = points_along(other, dense);
+  constexpr int dense = 256;
+  const std::vector<Vector3> along = points_along(edge), points = points_along(other, dense);
   double farthest = 0;
-  for (int i = 1; i < samples; ++i) farthest = std::max(farthest, distance_to_line(along[i], points));
+  for (int i = 1; i < steps_of_edge; ++i) farthest = std::max(farthest, distance_to_line(along[i], points));
   return farthest;
 }
 

@@ -53,12 +53,15 @@ struct SliverChoice {
 /// \param used 1 = the face is meshed
 IdVector<EdgeId, int> uses_of_nodes(const CadShape& shape, const FaceFlags& used, const TinyFeatures& tiny);
 
-/// Points on an edge at even steps of its parameter, both ends included. \param pieces steps \param forward
-/// whether they begin at the edge's start
-std::vector<Vector3> points_along(const CadEdge& edge, int pieces, bool forward = true);
+/// Steps along an edge where its course matters, not each place on it.
+constexpr int steps_of_edge = 16;
 
-/// Points on the edges of a wire, all around it. \param pieces steps on each edge
-std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire, int pieces);
+/// Points on an edge at even steps of its parameter, both ends included. \param forward whether they begin at
+/// the edge's start
+std::vector<Vector3> points_along(const CadEdge& edge, int steps = steps_of_edge, bool forward = true);
+
+/// Points on the edges of a wire, all around it, with `steps_of_edge` on each.
+std::vector<Vector3> points_around(const CadShape& shape, const CadWire& wire);
 
 /// The length of a wire.
 double length_of(const CadShape& shape, const CadWire& wire);

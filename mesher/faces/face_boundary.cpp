@@ -19,6 +19,9 @@ namespace {
 /// Number of segments along a pole: as many as elements meet there, so that triangles fan out evenly.
 constexpr int pole_segments = 6;
 
+/// Points closer than this share of the segments beside them are one point.
+constexpr double nearness = 0.01;
+
 double scaled_distance(const FaceBoundary& boundary, const Vector2& scale, int a, int b) {
   return (boundary.uv[a] - boundary.uv[b]).cwiseProduct(scale).norm();
 }
@@ -99,7 +102,6 @@ void unite_points(FaceBoundary& boundary, const std::vector<int>& target) {
 
 /// Merges points where wires touch, as a hole and a seam may, and along slits.
 void join_touching(FaceBoundary& boundary, const Vector2& scale) {
-  constexpr double nearness = 0.01;  // in lengths of the shortest segment at the point
   const auto distance = [&](int a, int b) { return scaled_distance(boundary, scale, a, b); };
   std::vector<double> reach(boundary.size(), std::numeric_limits<double>::infinity());
   for (const auto& segment : boundary.segments) {
@@ -202,7 +204,6 @@ class BoundaryWalker {
 
   /// Whether the line between two places in the parameter plane is a single point in space, a pole.
   bool is_one_point(const Vector2& from, const Vector2& to) const {
-    constexpr double nearness = 0.01;
     const double reach = nearness * (to - from).cwiseProduct(scale_).norm();
     const Vector3 first = surface_.point(from);
     for (const double t : {0.25, 0.5, 0.75}) {

@@ -55,6 +55,11 @@ constexpr std::array<CriterionInfo, criterion_count> criteria_info{{{"aspect", "
                                                                     {"taper", "", 0, 0.6},
                                                                     {"min_length", "mm", 0, unchecked}}};
 
+/// The default limit of a criterion; NaN = not checked.
+constexpr double usual_limit(Criterion criterion) {
+  return criteria_info[static_cast<std::size_t>(criterion)].usual_limit;
+}
+
 /// One limit per criterion.
 struct QUADRILLE_API CriteriaLimits {
   static constexpr double unchecked = quadrille::unchecked;  ///< no value fails it

@@ -26,22 +26,18 @@ constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double ceiling = 1000;
 /// A quad with a smaller cosine between its normal and `up` is drawn in the plane of u and v instead.
 constexpr double facing = 0.1;
-constexpr double limit(Criterion criterion) {
-  return criteria_info[static_cast<std::size_t>(criterion)].usual_limit;
-}
-
 constexpr double square(double x) {
   return x * x;
 }
 
 constexpr double sin2_corner = 0.586824;  // squared sine of 50 degrees
 constexpr double sin2_skew = 0.413176;    // squared sine of 40 degrees
-static_assert(limit(Criterion::angle_min) == 90 - 50 && limit(Criterion::angle_max) == 90 + 50 &&
-              limit(Criterion::skew) == 40);
-constexpr double aspect2 = square(limit(Criterion::aspect));
+static_assert(usual_limit(Criterion::angle_min) == 90 - 50 && usual_limit(Criterion::angle_max) == 90 + 50 &&
+              usual_limit(Criterion::skew) == 40);
+constexpr double aspect2 = square(usual_limit(Criterion::aspect));
 /// With taper t the Jacobian ratio of a plane quad is (1 - t / root 3) / (1 + t / root 3).
 constexpr double taper2 =
-    3 * square((1 - limit(Criterion::jacobian_ratio)) / (1 + limit(Criterion::jacobian_ratio)));
+    3 * square((1 - usual_limit(Criterion::jacobian_ratio)) / (1 + usual_limit(Criterion::jacobian_ratio)));
 static_assert(aspect2 == 25 && taper2 == 0.1875);
 /// Weight of the squared aspect in the squareness term, beside 1 for the squared cosines of the corners.
 /// Without it, rows would close up where that term turns corners.

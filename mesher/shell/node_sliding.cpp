@@ -12,6 +12,7 @@
 #include "geometry/cad/parallel_ids.hpp"
 #include "geometry/surfaces/edge_curve.hpp"
 #include "geometry/surfaces/face_surface.hpp"
+#include "mesher/mesh/criteria.hpp"
 #include "mesher/mesh/quad_geometry.hpp"
 #include "mesher/mesh/sides.hpp"
 #include "mesher/quads/criteria_patch.hpp"
@@ -36,15 +37,13 @@ constexpr double floor_sine = 0.5;
 constexpr double least_gain = 0.001;
 /// Quads inside the limits that are this close to parallelograms (as a share of the mean side) stay. A skew
 /// grid of them is as accurate in bending as a square one, but not after its nodes move.
-constexpr double parallel_share = 0.1, inside_limits = 0.766;  // the sine of 50 degrees: skew 40
-/// Limit of the aspect. Rows of which some are beyond it, but not their mean, become more even.
-constexpr double inside_aspect = 5;
-/// A quad alone in a corner of its face that is sharper than the limit of 40 degrees stays outside whatever
-/// its other nodes do. With its full weight, its neighbors would be drawn outside too.
-constexpr double sharp_cosine = 0.766, sharp_weight = 0.1;
-/// Quads across smooth edges turn by no more than 40 degrees between two corners, or than quads did before,
-/// so that fillets keep their rows.
-constexpr double least_turn_cosine = 0.766;
+constexpr double parallel_share = 0.1;
+/// The cosine of the limit of skew and of corner angles, 40 degrees. Quads across smooth edges turn by no
+/// more between two corners either, or than they did before, so that fillets keep their rows.
+constexpr double limit_cosine = 0.766;
+/// The weight of a quad alone in a corner of its face that is sharper than the limit: it stays outside
+/// whatever its other nodes do. With its full weight, its neighbors would be drawn outside too.
+constexpr double sharp_weight = 0.1;
 /// After a move by more than this share of the mean side, the neighbors are visited again.
 constexpr double still_share = 0.01;
 /// Segments on edges stay between these shares of their original length in the curve's parameter. On curved
@@ -100,7 +99,7 @@ struct FaceState {
       const int quad = element_of(corners[i][0]), k = index_of(corners[i][0]);
       const Vector3& here = corner(quad, k);
       const Vector3 next = corner(quad, k + 1) - here, previous = corner(quad, k + 3) - here;
-      if (next.dot(previous) > sharp_cosine * next.norm() * previous.norm()) weight[quad] = sharp_weight;
+      if (next.dot(previous) > limit_cosine * next.norm() * previous.norm()) weight[quad] = sharp_weight;
     }
   }
 
@@ -184,8 +183,10 @@ class Round {
       off_parallel = std::max(off_parallel, off.norm());
     }
     mean_ = sum / (2.0 * static_cast<double>(uses_.size()));
-    const bool uneven = aspect > inside_aspect && (sum - short_sum) / short_sum < inside_aspect;
-    return !(least_sine_ > inside_limits && !uneven && off_parallel / mean_ < parallel_share);
+    // Rows of which some are beyond the limit, but not their mean, become more even.
+    constexpr double most = usual_limit(Criterion::aspect);
+    const bool uneven = aspect > most && (sum - short_sum) / short_sum < most;
+    return !(least_sine_ > limit_cosine && !uneven && off_parallel / mean_ < parallel_share);
   }
 
   /// \return whether the patch has all quads
@@ -376,7 +377,7 @@ bool turn(FaceState& face, const Round& round, int node, Vector2 uv, const Vecto
       result = std::min(result, turn_cosine(face.mesh->quads[use.quad], normals));
     return result;
   };
-  const double allowed = std::min(least_turn_cosine, least());
+  const double allowed = std::min(limit_cosine, least());
   const Vector3 before = normals[node];
   face.get_surface().move(uv, point, normals[node]);
   if (least() >= allowed) return true;
@@ -473,7 +474,7 @@ void mend(FaceState& face, const ExecutionContext& context) {
   SurfaceMesh work = surface_mesh(mesh);
   std::vector<char> changed;
   try {
-    const double turn = mesh.normals.empty() ? -1 : least_turn_cosine;
+    const double turn = mesh.normals.empty() ? -1 : limit_cosine;
     if (mend_quads(work, MovedOnFace(face), outside_objective, turn, changed, context) == 0) return;
     if (crowded_side(mesh.nodes, work.mesh.quads)) return;
   } catch (const Standard_Failure&) {

@@ -26,7 +26,6 @@ namespace quadrille {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr double sharp = 40;  // degrees: no quad in such a corner keeps within the usual limits
 
 class Finder {
  public:
@@ -145,8 +144,9 @@ class Finder {
     }
     const auto& angles = faces_[face];
     for (const int node : mesh_.quads[quad]) {
+      // No quad in a sharper corner keeps within the usual limits.
       const auto angle = angles.find(node);
-      if (angle != angles.end() && angle->second < sharp)
+      if (angle != angles.end() && angle->second < usual_limit(Criterion::angle_min))
         return count({2, face, Reason::corner, node}, length);
     }
     const auto row = row_of(quad, shortest);

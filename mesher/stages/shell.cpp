@@ -23,9 +23,8 @@ namespace {
 
 /// The farthest that an edge's curve lies from a point, by samples.
 double distance_from(const Vector3& place, const CadEdge& edge) {
-  constexpr int pieces = 16;
   double result = 0;
-  for (const Vector3& point : points_along(edge, pieces)) result = std::max(result, (point - place).norm());
+  for (const Vector3& point : points_along(edge)) result = std::max(result, (point - place).norm());
   return result;
 }
 
@@ -72,9 +71,8 @@ ShellMesh::Face status_of(FaceId face, const Prepared& prepared, const Boundary&
 /// Those inside joined faces too.
 std::vector<ShellMesh::CrossedEdge> crossed_edges(const Prepared& prepared,
                                                   const std::vector<EdgeId>& edges) {
-  constexpr int pieces = 32;
   std::vector<ShellMesh::CrossedEdge> result = prepared.simple.inner;
-  for (const EdgeId edge : edges) result.push_back(crossed_edge(prepared.shape.edges[edge], pieces));
+  for (const EdgeId edge : edges) result.push_back(crossed_edge(prepared.shape.edges[edge]));
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
