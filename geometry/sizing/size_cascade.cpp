@@ -70,17 +70,6 @@ void SizeCascade::add(const Vector3& point, double size, BlockCount& blocks) {
   add_by_corner(point, size, blocks, [size](const Vector3&) { return size; });
 }
 
-void SizeCascade::add_by_corner(const Vector3& point, double size, BlockCount& blocks,
-                                const std::function<double(const Vector3& corner)>& size_at) {
-  const int level = frame_.level_of(size);
-  const double voxel = frame_.voxel(level);
-  const Coord base = voxel_at(point / voxel);
-  for (int k = 0; k < 8; ++k) {
-    const Coord c = corner_of(base, k);
-    lower(level, c, static_cast<float>(size_at(voxel * Vector3(c.x(), c.y(), c.z()))), blocks);
-  }
-}
-
 void SizeCascade::add_means(const std::vector<SizePoint>& points, BlockCount& blocks) {
   struct Share {
     int level;

@@ -132,9 +132,17 @@ class SizeCascade {
   /// point returns the size unchanged.
   void add(const Vector3& point, double size, BlockCount& blocks);
 
-  /// The same, with a separate size for each corner.
-  void add_by_corner(const Vector3& point, double size, BlockCount& blocks,
-                     const std::function<double(const Vector3& corner)>& size_at);
+  /// The same, with a separate size for each corner, size_at(corner).
+  template <class SizeAt>
+  void add_by_corner(const Vector3& point, double size, BlockCount& blocks, const SizeAt& size_at) {
+    const int level = frame_.level_of(size);
+    const double voxel = frame_.voxel(level);
+    const Coord base = voxel_at(point / voxel);
+    for (int k = 0; k < 8; ++k) {
+      const Coord c = corner_of(base, k);
+      lower(level, c, static_cast<float>(size_at(voxel * Vector3(c.x(), c.y(), c.z()))), blocks);
+    }
+  }
 
   /// Sets each voxel corner to the weighted geometric mean of the points around it, on all levels that
   /// look-ups near the points may read.

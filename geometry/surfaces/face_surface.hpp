@@ -93,7 +93,8 @@ class FaceSurface : public MeshSurface {
   SurfacePoint evaluate_elementary(const Vector2& uv) const;
   SurfacePoint evaluate_other(const Vector2& uv) const;
   SurfacePoint evaluate_view(const Vector2& xy) const;
-  /// Of a cone or torus, around its axis at v; negative beyond the apex or the axis.
+  /// The radius around the axis at v, of cones and tori negative beyond the apex or the axis; that of a
+  /// sphere everywhere. 0 for other kinds.
   double radius_at(double v) const;
   Vector2 inverse(const Vector2& near, const Vector3& target) const;
   Vector2 clamp(Vector2 uv) const;
