@@ -62,7 +62,8 @@ class SizePlan {
         now_(sizes_of(mesh)),
         even_(even_sizes(mesh, estimate)),
         singular_(singular_corners(mesh, estimate)),
-        at_points_(means_at_nodes(mesh, [&](Side corner) { return now_[element_of(corner)]; })) {
+        at_points_(means_at_nodes(corners_by_node(mesh.points.size(), mesh.quads),
+                                  [&](Side corner) { return now_[element_of(corner)]; })) {
     double sum = 0, corners = 0;
     for (std::size_t node = 0; node < at_points_.size(); ++node) {
       if (at_points_[node] == 0) continue;

@@ -31,12 +31,11 @@ ErrorEstimate estimate_error(const ShellMesh& mesh, const std::vector<std::array
 /// (quads) The square root of each quad's area.
 std::vector<double> sizes_of(const ShellMesh& mesh);
 
-/// (points) The mean over the quads at each corner node; 0 at other points. \param value (Side) of a quad at
-/// one of its corners
+/// (points) The mean over the quads at each corner node; 0 at other points. \param corners see
+/// corners_by_node() \param value (Side) of a quad at one of its corners
 template <class Value>
-std::vector<double> means_at_nodes(const ShellMesh& mesh, Value&& value) {
-  const Rows<Side> corners = corners_by_node(mesh.points.size(), mesh.quads);
-  std::vector<double> means(mesh.points.size(), 0);
+std::vector<double> means_at_nodes(const Rows<Side>& corners, Value&& value) {
+  std::vector<double> means(corners.size(), 0);
   for (std::size_t node = 0; node < means.size(); ++node) {
     for (const Side corner : corners[node]) means[node] += value(corner);
     if (!corners[node].empty()) means[node] /= static_cast<double>(corners[node].size());

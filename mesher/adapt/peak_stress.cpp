@@ -80,9 +80,9 @@ std::vector<StressPeak> stress_peaks(const ShellMesh& mesh,
   const Rows<Side> corners = corners_by_node(mesh.points.size(), mesh.quads);
   const std::vector<double> of_quads = sizes_of(mesh);
   const std::vector<double> sizes =
-      means_at_nodes(mesh, [&](Side corner) { return of_quads[element_of(corner)]; });
+      means_at_nodes(corners, [&](Side corner) { return of_quads[element_of(corner)]; });
   const std::vector<double> stress = means_at_nodes(
-      mesh, [&](Side corner) { return stress_at_corner(stresses[element_of(corner)], index_of(corner)); });
+      corners, [&](Side corner) { return stress_at_corner(stresses[element_of(corner)], index_of(corner)); });
   const double largest = *std::ranges::max_element(stress);
   const auto is_highest = [&](std::size_t node) {
     for (const Side corner : corners[node])

@@ -12,9 +12,10 @@
 
 namespace quadrille {
 
-/// An edge between two faces that are meshed as one.
+/// An edge between two faces that are meshed as one, with a line to be drawn.
 inline ShellMesh::CrossedEdge crossed_edge(const CadEdge& edge) {
-  return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge)};
+  constexpr int steps = 32;
+  return {edge.number, {edge.faces.front().number(), edge.faces.back().number()}, points_along(edge, steps)};
 }
 
 /// Whether a setting names an edge or one of its vertices.
